@@ -1,0 +1,45 @@
+# One library per folder, one set of compile options for all of them.
+
+# No -march flags here: Debian's PCL is built for baseline x86-64, and wider vectors would change
+# the alignment of every Eigen type that is passed to it. Wide instruction sets are set file by
+# file in renderers/ and sim/ and chosen at run time.
+add_library(fenestra_options INTERFACE)
+target_compile_options(fenestra_options INTERFACE
+  -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
+  -Wno-restrict  # GCC 12 reports it wrongly for std::string (GCC bug 105651).
+  $<$<BOOL:${FENESTRA_WARNINGS_AS_ERRORS}>:-Werror>)
+# Floating-point contraction would let the compiler round differently from one file to the next.
+target_compile_options(fenestra_options INTERFACE -ffp-contract=off)
+target_include_directories(fenestra_options INTERFACE ${CMAKE_SOURCE_DIR})
+if(FENESTRA_SANITIZE)
+  target_compile_options(fenestra_options INTERFACE
+    -fsanitize=${FENESTRA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(fenestra_options INTERFACE -fsanitize=${FENESTRA_SANITIZE})
+endif()
+find_program(MOLD mold)
+if(MOLD)
+  target_link_options(fenestra_options INTERFACE -fuse-ld=mold)
+endif()
+
+# fenestra_library(<folder> SOURCES ... [PUBLIC libs...] [PRIVATE libs...])
+function(fenestra_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(fenestra_${name} STATIC ${ARG_SOURCES})
+  add_library(fenestra::${name} ALIAS fenestra_${name})
+  target_link_libraries(fenestra_${name}
+    PUBLIC ${ARG_PUBLIC}
+    PRIVATE fenestra_options ${ARG_PRIVATE})
+  target_include_directories(fenestra_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  set_target_properties(fenestra_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()
+
+# fenestra_test(<folder> SOURCES ... LIBRARIES ...): one test program per folder.
+function(fenestra_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(test_${name} ${ARG_SOURCES})
+  target_link_libraries(test_${name} PRIVATE fenestra_options ${ARG_LIBRARIES}
+    GTest::gmock GTest::gtest_main)
+  target_compile_definitions(test_${name} PRIVATE
+    FENESTRA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" FENESTRA_BUILD_DIR="${CMAKE_BINARY_DIR}")
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+endfunction()

@@ -1,0 +1,36 @@
+#include "core/atomic_file.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+
+#include "core/input_error.h"
+
+namespace fenestra {
+
+void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes) {
+  static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
+  std::error_code error;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+  if (error) throw InputError(file, "its folder cannot be made: " + error.message());
+  std::filesystem::path temporary = file;
+  temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
+  {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    stream.close();
+    if (!stream) {
+      std::filesystem::remove(temporary, error);
+      throw InputError(file, "cannot be written");
+    }
+  }
+  std::filesystem::rename(temporary, file, error);
+  if (error) {
+    const std::string reason = error.message();
+    std::filesystem::remove(temporary, error);
+    throw InputError(file, "cannot be written: " + reason);
+  }
+}
+
+}  // namespace fenestra

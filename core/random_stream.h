@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace fenestra {
+
+/// A pure function from (seed, path, index) to random numbers; no state, no order of calls.
+///
+/// Numbers come from Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3",
+/// SC 2011; the Random123 library). A stream is a 64-bit Philox key; a child's key is the cipher
+/// of its purpose and index under the parent's key, so that streams of different paths are
+/// independent. Normal variates are inverse CDFs of the uniforms, since the distributions of the
+/// standard library differ between implementations.
+class RandomStream {
+ public:
+  explicit RandomStream(uint64_t seed) : key_(seed) {}
+
+  /// The stream for one purpose ("read_noise") and index (a replicate, a frame, a camera).
+  RandomStream Child(std::string_view purpose, uint64_t index = 0) const;
+
+  /// Uniform in the open interval (0, 1), 53 bits.
+  double Uniform(uint64_t index) const;
+
+  /// Standard normal.
+  double Normal(uint64_t index) const;
+
+  /// out[i] = standard normal number `i` of a sequence of its own, in single precision:
+  /// 32-bit uniforms, so |x| < 6.4. For images.
+  void FillNormals(std::span<float> out) const;
+
+  /// out[i] uniform in (0, 1), 24 bits.
+  void FillUniforms(std::span<float> out) const;
+
+  uint64_t key() const { return key_; }
+
+ private:
+  uint64_t key_;
+};
+
+/// Quantile of the standard normal distribution for 0 < p < 1, to about 7 digits: algorithm
+/// PPND7 of M. J. Wichura, "The percentage points of the normal distribution", AS 241, 1988.
+float NormalQuantileSingle(float p);
+
+}  // namespace fenestra

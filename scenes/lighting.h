@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fenestra {
+
+/// Daylight's spectral irradiance at 830 nm per lux of illuminance [W/(m² nm lx)].
+/// Source: ASTM G173-03, 825–835 nm mean of the direct beam 0.87 W/(m² nm), at about 103 klx.
+inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
+
+/// A distant disc too small to blur a shadow at window scale.
+struct Sun {
+  /// Above the horizon, in the facade's half space for a positive z.
+  double azimuth_rad = 0.0;    ///< From the facade's normal (+Z) towards +X.
+  double elevation_rad = 0.7;  ///< Above the horizon.
+  double illuminance_lx = 0.0; ///< On a plane perpendicular to the rays; 0: no sun.
+
+  /// Unit vector from the scene to the sun.
+  Eigen::Vector3d Direction_W() const;
+};
+
+/// A sky dome of uniform luminance above the horizon and a Lambert ground below it.
+struct Sky {
+  double illuminance_lx = 500.0;      ///< On an unobstructed horizontal plane: π · luminance.
+  double ground_reflectance = 0.2;    ///< Of the ground, lit by the sky alone.
+};
+
+/// All light of a scene; radiance is linear in each illuminance. `irradiance_830_per_lux` turns
+/// illuminance into spectral irradiance at 830 nm: daylight by default, 0 for LED lamps.
+struct Lighting {
+  Sun sun;
+  Sky sky;
+  double irradiance_830_per_lux = kDaylightIrradiance830PerLux;
+};
+
+}  // namespace fenestra

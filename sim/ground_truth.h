@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/pose.h"
+#include "scenes/scene.h"
+
+namespace fenestra {
+
+/// A window as it truly stands before the scored camera C.
+struct WindowTruth {
+  Eigen::Vector3d p_CO;
+  std::array<Eigen::Vector3d, 4> p_CV;  ///< Top left, top right, bottom right, bottom left.
+  Eigen::Vector3d normal_C;             ///< Out of the wall.
+  double width_m;
+  double height_m;
+};
+
+/// What is true of one observation. C is the true, unrectified left camera (stereo) or the true
+/// camera that the depth image's pixels belong to (RGB-D).
+struct GroundTruth {
+  Pose X_WC;
+  std::optional<WindowTruth> target;
+  std::vector<WindowTruth> other_windows;
+  /// Whether the target's front outer rectangle is seen from its front and lies wholly inside
+  /// every image of the observation. False without a target.
+  bool in_view = false;
+};
+
+WindowTruth TruthOf(const TargetWindow& window, const Pose& X_WC);
+
+}  // namespace fenestra
