@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
 #include "core/input_error.h"
 
@@ -14,8 +14,8 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Beyond this radius (89.4°) a pinhole has no business.
-constexpr double kLargestRadius = 100.0;
+// tan 80°: no calibration of a Brown–Conrady lens reaches farther.
+constexpr double kLargestRadius = 5.671281819617709;
 // The radial polynomial must still grow with at least this slope, so that its inverse is stable.
 constexpr double kSmallestSlope = 0.01;
 
@@ -126,7 +126,8 @@ std::optional<Vector3d> CameraModel::UnprojectRay(const Vector2d& pixel) const {
     n -= step;
     if (step.norm() < 1e-16) break;
   }
-  const bool converged = (Distort(parameters_.distortion, n) - target).norm() < 1e-12;
+  const double residual = (Distort(parameters_.distortion, n) - target).norm();
+  const bool converged = residual < 1e-12 * (1.0 + target.norm());
   if (!converged || !(n.norm() <= max_radius_)) return std::nullopt;
   return Vector3d(n.x(), n.y(), 1.0);
 }

@@ -27,7 +27,7 @@ struct ParameterInfo {
   Type type = Type::kNumber;
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;
+  std::vector<std::string> choices{};
   ParameterValue default_value = 0.0;
 
   /// "true or false", "a number from 0.1 to 100", "one of paper_target, facade".

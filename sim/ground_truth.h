@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
+#include "core/camera_model.h"
 #include "core/pose.h"
 #include "scenes/scene.h"
 
@@ -31,5 +33,15 @@ struct GroundTruth {
 };
 
 WindowTruth TruthOf(const TargetWindow& window, const Pose& X_WC);
+
+/// A camera where it truly stands.
+struct PlacedCamera {
+  CameraModel camera;
+  Pose X_WC;
+};
+
+/// The truth for the scored camera at X_WC; `cameras` are all whose images the target must be in.
+GroundTruth MakeGroundTruth(const Scene& scene, const Pose& X_WC,
+                            std::span<const PlacedCamera> cameras);
 
 }  // namespace fenestra

@@ -61,6 +61,7 @@ class StereoRig {
   StereoRigOptions options_;
   StereoCalibration nominal_;
   RayGrid rays_;  ///< Both cameras have the same nominal intrinsics.
+  cv::Mat1f vignetting_;
 };
 
 }  // namespace fenestra

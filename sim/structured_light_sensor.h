@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/calibration.h"
 #include "core/observation.h"
 #include "core/random_stream.h"
@@ -26,9 +28,12 @@ struct StructuredLightOptions {
 
   /// Disparity step and noise, in pixels of the 640-wide image in which the sensor matches.
   double disparity_step_px = 0.125;     ///< 1/8 px (ROS kinect_calibration/technical).
-  /// Before quantisation. Khoshelham's σ_z = 1.425e-3 z² is 0.062 px at f b = 43.5 px m and
-  /// includes the step's 0.125/√12 = 0.036 px: √(0.062² − 0.036²) = 0.050.
-  double disparity_noise_px = 0.050;
+  /// Before quantisation. Khoshelham's σ_z = 1.425e-3 z² is 0.061 px at f b = 42.8 px m and
+  /// includes the step's 0.125/√12 = 0.036 px: √(0.061² − 0.036²) = 0.049.
+  double disparity_noise_px = 0.049;
+  /// Side of the window that is matched (ROS kinect_calibration/technical: 9 x 9 or 9 x 7): pixels
+  /// that share a window share its noise.
+  int matching_window_px = 9;
   /// Lateral jitter of each depth pixel, in the same pixels (Barron & Handa, simkinect: 0.5).
   double lateral_noise_px = 0.5;
 
@@ -40,8 +45,9 @@ struct StructuredLightOptions {
   /// A 9 x 9 window holds 9 dots: its evidence is √9 times a dot's. Matched when it exceeds this.
   double matching_snr = 3.5;
   double grazing_limit_rad = 1.309;     ///< 75°: between the 70° and 80° that users report.
-  /// Full width of the infra-red filter [nm]; with the projector's 60 mW it sets how much ambient
-  /// light competes with the dots.
+  /// Peak irradiance of a dot at 1 m [W/m²]: 60 mW spread over the field of view, 11 % of it dots.
+  double dot_irradiance = 0.574;
+  /// Full width of the infra-red filter [nm]: how much ambient light competes with the dots.
   double filter_width_nm = 10.0;
 
   LensOptions color_lens{.f_number = 2.0, .transmission = 0.9, .blur_sigma_px = 0.5};
@@ -49,7 +55,6 @@ struct StructuredLightOptions {
   ImageSensorOptions color_sensor{.electrons_per_lux_s = 2.0e4,
                                   .saturation_e = 6000.0,
                                   .read_noise_e = 6.0,
-                                  .bits = 8,
                                   .noise = true};
   /// Mean of the sRGB-encoded image that automatic exposure aims for, of 255.
   double color_mean_dn = 118.0;
@@ -96,11 +101,14 @@ class StructuredLightSensor {
  private:
   cv::Mat3b ObserveColor(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                          const RandomStream& shot) const;
+  /// Fixed, or such that the encoded image's mean is color_mean_dn; B, G, R in [cd/m²].
+  double ColorExposure(const std::array<cv::Mat1f, 3>& luminance) const;
 
   StructuredLightOptions options_;
   RgbdCalibration nominal_;
   RayGrid depth_rays_;
   RayGrid color_rays_;
+  cv::Mat1f color_vignetting_;
 };
 
 }  // namespace fenestra

@@ -1,0 +1,275 @@
+#include "sim/structured_light_sensor.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/input_error.h"
+#include "sim/srgb.h"
+
+namespace fenestra {
+namespace {
+
+// The sensor matches in an image of this width, whatever the width of the depth image.
+constexpr double kMatchingWidth = 640.0;
+// Landau's dot signal was fitted on a white wall.
+constexpr double kReferenceReflectance = 0.8;
+// 11 % of the area are dots: nine in a window of 9 x 9 (measured on the Kinect's pattern).
+constexpr double kDotsPerWindow = 9.0;
+// In both modes; Microsoft Kinect SDK 1.8.
+struct Range {
+  double nearest_m;
+  double farthest_m;
+};
+constexpr Range kDefaultRange{0.8, 4.0};
+constexpr Range kNearRange{0.4, 3.0};
+// Limits of the colour camera's automatic exposure: its shortest line time and one frame at 30 Hz.
+constexpr double kShortestColorExposure = 20e-6;
+constexpr double kLongestColorExposure = 1.0 / 30.0;
+
+CameraModel DepthCamera(const StructuredLightOptions& o) {
+  return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
+}
+
+CameraModel ColorCamera(const StructuredLightOptions& o) {
+  return CameraModel::Pinhole(o.color_width_px, o.color_height_px, o.color_focal_px);
+}
+
+Pose DepthToColor(const StructuredLightOptions& o) {
+  return Pose::Translation({-o.color_offset_m, 0.0, 0.0});
+}
+
+cv::Mat1f Normals(const RandomStream& stream, cv::Size size) {
+  cv::Mat1f values(size);
+  stream.FillNormals({values.ptr<float>(), values.total()});
+  return values;
+}
+
+// Standard normal at every pixel, but equal to white noise averaged over the window that
+// neighbouring pixels share.
+cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, int window_px) {
+  const int reach = window_px / 2;
+  const cv::Mat1f white = Normals(stream, {size.width + 2 * reach, size.height + 2 * reach});
+  cv::Mat1f sums;
+  const int side = 2 * reach + 1;
+  cv::boxFilter(white, sums, CV_32F, {side, side}, {-1, -1}, false);
+  return sums(cv::Rect({reach, reach}, size)) / static_cast<float>(side);
+}
+
+// What one depth pixel sees.
+struct Surface {
+  double z_m;
+  Eigen::Vector3d normal_C;
+  bool sees_projector;
+  double transmittance;
+  double reflectance_830nm;
+  double irradiance_830;
+};
+
+struct Reading {
+  NoReturn no_return = NoReturn::kNone;
+  double z_m = 0.0;
+};
+
+class Physics {
+ public:
+  Physics(const StructuredLightOptions& options, const CameraModel& depth)
+      : o_(options),
+        range_(options.near_mode ? kNearRange : kDefaultRange),
+        disparity_times_z_(options.projector_baseline_m * depth.parameters().fx_px *
+                           kMatchingWidth / depth.width_px()) {}
+
+  // `ray` has z = 1. Noise variates: of the window's evidence and of the disparity.
+  Reading Read(const Surface& s, const Eigen::Vector3d& ray, double evidence_noise,
+               double disparity_noise) const {
+    if (!std::isfinite(s.z_m)) return {NoReturn::kNoSurface};
+    if (s.z_m < range_.nearest_m || s.z_m > range_.farthest_m) return {NoReturn::kRange};
+    if (!s.sees_projector) return {NoReturn::kShadow};
+
+    const Eigen::Vector3d p_CQ = s.z_m * ray;
+    const Eigen::Vector3d to_projector =
+        Eigen::Vector3d(o_.projector_baseline_m, 0.0, 0.0) - p_CQ;
+    const double cos_camera = -s.normal_C.dot(p_CQ.normalized());
+    const double cos_projector = s.normal_C.dot(to_projector.normalized());
+    if (std::min(cos_camera, cos_projector) < std::cos(o_.grazing_limit_rad)) {
+      return {NoReturn::kGrazing};
+    }
+    const NoReturn evidence =
+        Evidence(s, cos_projector, to_projector.squaredNorm(), evidence_noise);
+    if (evidence != NoReturn::kNone) return {evidence};
+
+    const double disparity_px =
+        disparity_times_z_ / s.z_m + o_.disparity_noise_px * disparity_noise;
+    const double step_px = o_.disparity_step_px;
+    const double quantised_px =
+        step_px > 0.0 ? step_px * std::round(disparity_px / step_px) : disparity_px;
+    const double z_m = disparity_times_z_ / quantised_px;
+    if (!(z_m >= range_.nearest_m && z_m <= range_.farthest_m)) return {NoReturn::kRange};
+    return {NoReturn::kNone, z_m};
+  }
+
+ private:
+  // Whether the dots of a window stand out of the noise of the infra-red image.
+  NoReturn Evidence(const Surface& s, double cos_projector, double squared_distance,
+                    double noise) const {
+    const double reflected = o_.dot_signal_dn * s.reflectance_830nm / kReferenceReflectance;
+    // The pattern passes a pane of glass twice, ambient light on the surface once.
+    const double dot_dn =
+        reflected * cos_projector / squared_distance * s.transmittance * s.transmittance;
+    const double ambient_dn = reflected * s.transmittance *
+                              (s.irradiance_830 * o_.filter_width_nm / o_.dot_irradiance);
+    if (dot_dn + ambient_dn > o_.saturation_dn) return NoReturn::kSaturated;
+    const double noise_dn = std::sqrt(o_.dark_noise_dn * o_.dark_noise_dn +
+                                      o_.shot_noise_dn * (dot_dn + ambient_dn));
+    const double window_snr = std::sqrt(kDotsPerWindow) * dot_dn / noise_dn;
+    return window_snr + noise < o_.matching_snr ? NoReturn::kDark : NoReturn::kNone;
+  }
+
+  const StructuredLightOptions& o_;
+  Range range_;
+  double disparity_times_z_;  // f b [px m]
+};
+
+}  // namespace
+
+void Validate(const StructuredLightOptions& o) {
+  std::vector<InputFault> faults;
+  const auto demand = [&faults](bool holds, std::string message) {
+    if (!holds) faults.push_back({"structured-light sensor", 0, 0, std::move(message)});
+  };
+  demand(o.projector_baseline_m > 0.0, "the projector's baseline must be positive");
+  demand(o.disparity_step_px >= 0.0 && o.disparity_noise_px >= 0.0 && o.lateral_noise_px >= 0.0,
+         "disparity step, disparity noise and lateral noise must not be negative");
+  demand(o.matching_window_px >= 1 && o.matching_window_px <= 31,
+         fmt::format("matching window {} px is not between 1 and 31", o.matching_window_px));
+  demand(o.grazing_limit_rad > 0.0 && o.grazing_limit_rad <= 1.5707,
+         "the grazing limit must lie between 0 and 90 degrees");
+  demand(o.dot_irradiance > 0.0, "the dots' irradiance must be positive");
+  demand(o.color_mean_dn > 0.0 && o.color_mean_dn < 255.0,
+         "the colour image's mean must lie between 0 and 255");
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
+    : options_((Validate(options), options)),
+      nominal_{.color = ColorCamera(options),
+               .depth = DepthCamera(options),
+               .X_KD = DepthToColor(options)},
+      depth_rays_(nominal_.depth),
+      color_rays_(nominal_.color),
+      color_vignetting_(NaturalVignetting(color_rays_)) {}
+
+RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Lighting& lighting,
+                                               const Pose& X_WB, const RandomStream& shot) const {
+  return {.color = ObserveColor(caster, lighting, X_WB, shot),
+          .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
+}
+
+StructuredLightSensor::DepthFrame StructuredLightSensor::ObserveDepth(
+    const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+    const RandomStream& shot) const {
+  const cv::Size size(nominal_.depth.width_px(), nominal_.depth.height_px());
+  const double matching_scale = size.width / kMatchingWidth;
+
+  // Lateral noise: the window's centre of evidence is not the pixel's centre.
+  AovOptions aov_options{.offsets_px = cv::Mat2f(size),
+                         .p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0)};
+  const std::array<cv::Mat1f, 2> jitter = {Normals(shot.Child("lateral_u"), size),
+                                           Normals(shot.Child("lateral_v"), size)};
+  cv::merge(jitter.data(), 2, aov_options.offsets_px);
+  aov_options.offsets_px *= options_.lateral_noise_px * matching_scale;
+  const AovImages aovs = caster.CastAovs(depth_rays_, X_WB, lighting, aov_options);
+
+  const int window_px =
+      std::max(1, static_cast<int>(std::lround(options_.matching_window_px * matching_scale)));
+  const cv::Mat1f disparity_noise = WindowNoise(shot.Child("disparity"), size, window_px);
+  const cv::Mat1f evidence_noise = WindowNoise(shot.Child("evidence"), size, window_px);
+
+  const Physics physics(options_, nominal_.depth);
+  DepthFrame frame{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = nominal_.depth_unit_m},
+                   .no_return = cv::Mat1b::zeros(size)};
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const cv::Vec2f offset = aov_options.offsets_px(v, u);
+      const auto ray = nominal_.depth.UnprojectRay({u + offset[0], v + offset[1]});
+      const cv::Vec3f& n = aovs.normal_C(v, u);
+      const Surface surface{.z_m = aovs.depth_m(v, u),
+                            .normal_C = {n[0], n[1], n[2]},
+                            .sees_projector = aovs.sees_point(v, u) != 0,
+                            .transmittance = aovs.transmittance(v, u),
+                            .reflectance_830nm = aovs.reflectance_830nm(v, u),
+                            .irradiance_830 = aovs.irradiance_830(v, u)};
+      const Reading reading =
+          physics.Read(surface, *ray, evidence_noise(v, u), disparity_noise(v, u));
+      frame.no_return(v, u) = static_cast<unsigned char>(reading.no_return);
+      frame.depth.raw(v, u) = static_cast<uint16_t>(std::lround(reading.z_m / frame.depth.unit_m));
+    }
+  }
+  return frame;
+}
+
+cv::Mat3b StructuredLightSensor::ObserveColor(const RayCaster& caster, const Lighting& lighting,
+                                              const Pose& X_WB, const RandomStream& shot) const {
+  const RenderOptions render{.band = Band::kRgb,
+                             .samples_per_pixel = 4,
+                             .edge_samples_per_pixel = options_.edge_samples_per_pixel};
+  cv::Mat3f luminance = caster.Render(color_rays_, X_WB * nominal_.X_KD.inverse(), lighting, render,
+                                      shot.Child("color_sampling"));
+  std::array<cv::Mat1f, 3> channels;
+  cv::split(BlurByLens(luminance, options_.color_lens), channels.data());
+  for (cv::Mat1f& channel : channels) channel = channel.mul(color_vignetting_);
+
+  const double exposure_s = ColorExposure(channels);
+  std::array<cv::Mat1b, 3> encoded;
+  for (size_t i = 0; i < channels.size(); ++i) {
+    encoded[i] = EncodeSrgb(Expose(channels[i], options_.color_sensor, options_.color_lens,
+                                   exposure_s, shot.Child("color_noise", i)));
+  }
+  cv::Mat3b color;
+  cv::merge(encoded.data(), encoded.size(), color);
+  return color;
+}
+
+double StructuredLightSensor::ColorExposure(const std::array<cv::Mat1f, 3>& luminance) const {
+  if (!options_.color_auto_exposure) return options_.color_exposure_s;
+  // The encoded mean grows with exposure, but not linearly: bisect. Without noise, on every fourth
+  // pixel of every fourth row.
+  ImageSensorOptions noiseless = options_.color_sensor;
+  noiseless.noise = false;
+  std::array<cv::Mat1f, 3> sparse;
+  for (size_t i = 0; i < sparse.size(); ++i) {
+    cv::resize(luminance[i], sparse[i], {}, 0.25, 0.25, cv::INTER_NEAREST);
+  }
+  const auto mean_dn = [&](double exposure_s) {
+    double sum = 0.0;
+    for (const cv::Mat1f& channel : sparse) {
+      sum += cv::mean(EncodeSrgb(Expose(channel, noiseless, options_.color_lens, exposure_s,
+                                        RandomStream(0))))[0];
+    }
+    return sum / 3.0;
+  };
+  double low_s = kShortestColorExposure;
+  double high_s = kLongestColorExposure;
+  for (int i = 0; i < 24; ++i) {
+    const double middle_s = std::sqrt(low_s * high_s);
+    (mean_dn(middle_s) < options_.color_mean_dn ? low_s : high_s) = middle_s;
+  }
+  return std::sqrt(low_s * high_s);
+}
+
+GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) const {
+  const std::array<PlacedCamera, 2> cameras = {
+      PlacedCamera{nominal_.depth, X_WB},
+      PlacedCamera{nominal_.color, X_WB * nominal_.X_KD.inverse()}};
+  return MakeGroundTruth(scene, X_WB, cameras);
+}
+
+AovImages StructuredLightSensor::DepthAovs(const RayCaster& caster, const Lighting& lighting,
+                                           const Pose& X_WB) const {
+  const Eigen::Vector3d p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0);
+  return caster.CastAovs(depth_rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = p_WP});
+}
+
+}  // namespace fenestra
