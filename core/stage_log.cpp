@@ -29,8 +29,9 @@ void StageLog::End() {
   running_ = -1;
 }
 
-void StageLog::Picture(const std::string& name, const std::function<cv::Mat()>& make) {
-  if (keep_artifacts_) OffTheClock([&] { pictures_.push_back({name, make()}); });
+void StageLog::Picture(const std::string& name, const std::function<cv::Mat()>& make,
+                       const std::vector<PictureView>& views) {
+  if (keep_artifacts_) OffTheClock([&] { pictures_.push_back({name, make(), views}); });
 }
 
 void StageLog::Cloud(const std::string& name,

@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "core/camera_model.h"
+#include "core/pose.h"
+
 namespace fenestra {
 
 /// Seconds since any fixed instant, never decreasing.
@@ -19,10 +22,19 @@ struct StageTime {
   double seconds = 0.0;
 };
 
+/// How points in front of camera C appear in a picture: p_PQ = X_PC p_CQ, then camera.Project.
+struct PictureView {
+  CameraModel camera;
+  Pose X_PC;
+};
+
 /// An intermediate result that a person can look at.
 struct StagePicture {
   std::string name;
   cv::Mat image;  ///< 8 bit, one or three channels (B, G, R).
+  /// One for each camera image in the picture (two of them side by side: the second view's
+  /// principal point is shifted by the first image's width). Estimates can be drawn over it.
+  std::vector<PictureView> views;
 };
 
 struct StageCloud {
@@ -44,7 +56,8 @@ class StageLog {
   void Begin(const std::string& stage);
   void End();
 
-  void Picture(const std::string& name, const std::function<cv::Mat()>& make);
+  void Picture(const std::string& name, const std::function<cv::Mat()>& make,
+               const std::vector<PictureView>& views = {});
   void Cloud(const std::string& name, const std::function<std::vector<Eigen::Vector3f>()>& make);
 
   bool keeps_artifacts() const { return keep_artifacts_; }

@@ -30,6 +30,9 @@ struct RenderOptions {
   int edge_samples_per_pixel = 256;
 };
 
+/// Throws InputError, with all faults, unless the sample counts are allowed ones.
+void Validate(const RenderOptions& options);
+
 /// Which truths CastAovs fills in besides depth, normal and object.
 struct AovOptions {
   /// Per-pixel offsets (du, dv) [px] from the pixel centre; empty: none. Each component in

@@ -33,4 +33,8 @@ struct Lighting {
   double irradiance_830_per_lux = kDaylightIrradiance830PerLux;
 };
 
+/// Throws InputError, with all faults, unless all numbers are finite, illuminances are not negative
+/// and the ground's reflectance is in [0, 1].
+void Validate(const Lighting& lighting);
+
 }  // namespace fenestra

@@ -120,10 +120,12 @@ class Physics {
         reflected * cos_projector / squared_distance * s.transmittance * s.transmittance;
     const double ambient_dn = reflected * s.transmittance *
                               (s.irradiance_830 * o_.filter_width_nm / o_.dot_irradiance);
-    if (dot_dn + ambient_dn > o_.saturation_dn) return NoReturn::kSaturated;
+    if (ambient_dn >= o_.saturation_dn) return NoReturn::kSaturated;
+    // A dot may saturate; what counts is how far it stands out of its surroundings.
+    const double contrast_dn = std::min(dot_dn, o_.saturation_dn - ambient_dn);
     const double noise_dn = std::sqrt(o_.dark_noise_dn * o_.dark_noise_dn +
-                                      o_.shot_noise_dn * (dot_dn + ambient_dn));
-    const double window_snr = std::sqrt(kDotsPerWindow) * dot_dn / noise_dn;
+                                      o_.shot_noise_dn * (contrast_dn + ambient_dn));
+    const double window_snr = std::sqrt(kDotsPerWindow) * contrast_dn / noise_dn;
     return window_snr + noise < o_.matching_snr ? NoReturn::kDark : NoReturn::kNone;
   }
 

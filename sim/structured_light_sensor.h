@@ -73,8 +73,8 @@ enum class NoReturn : unsigned char {
   kRange,
   kShadow,
   kGrazing,
-  kDark,
-  kSaturated,
+  kDark,       ///< The dots do not stand out of the noise, of ambient light among others.
+  kSaturated,  ///< Ambient light alone saturates the infra-red image.
 };
 
 /// The parametric structured-light sensor. Frame B is the depth camera D.

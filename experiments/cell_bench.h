@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/calibration.h"
+#include "core/detector.h"
+#include "experiments/sampling.h"
+#include "experiments/study.h"
+#include "experiments/trial_record.h"
+#include "renderers/ray_caster.h"
+#include "sim/ground_truth.h"
+#include "sim/stereo_rig.h"
+#include "sim/structured_light_sensor.h"
+
+namespace fenestra {
+
+/// One trial up to the point where detectors take over.
+struct SimulatedTrial {
+  Trial trial;
+  SensorCalibration calibration;  ///< Nominal: what detectors are told.
+  Observation observation;
+  GroundTruth truth;
+};
+
+/// One detector's attempt at a simulated trial.
+struct Attempt {
+  TrialRecord record;
+  StageLog log;
+};
+
+/// All that the trials of one cell share, made once: the scene with its ray tracing structures,
+/// the sensor, the detectors. What a study draws anew in every trial is made anew in every trial.
+/// Const calls are thread-safe and single-threaded inside; a trial's result depends on the study,
+/// the cell and the trial's index alone.
+class CellBench {
+ public:
+  /// Keeps references to neither argument.
+  CellBench(const Study& study, const Cell& cell);
+
+  const Cell& cell() const { return cell_; }
+  const std::vector<DetectorChoice>& detectors() const { return detector_choices_; }
+
+  SimulatedTrial Simulate(int trial_index) const;
+
+  /// Runs one detector on what it may see, then scores. A detector that throws is recorded as
+  /// crashed.
+  Attempt Try(size_t detector, const SimulatedTrial& simulated, bool keep_artifacts) const;
+
+  /// Per-pixel truth of the left (stereo) or depth camera.
+  AovImages TruthImages(const SimulatedTrial& simulated) const;
+
+ private:
+  /// A scene and its ray tracing structures; fixed in memory.
+  struct World {
+    explicit World(const TrialSettings& settings);
+    Scene scene;
+    RayCaster caster;
+  };
+  using Sensor = std::variant<StereoRig, StructuredLightSensor>;
+
+  static Sensor MakeSensor(const TrialSettings& settings, SensorKind kind);
+  std::shared_ptr<const World> WorldOf(const TrialSettings& settings) const;
+  std::shared_ptr<const Sensor> SensorOf(const TrialSettings& settings) const;
+
+  Study study_;
+  Cell cell_;
+  std::vector<DetectorChoice> detector_choices_;
+  std::shared_ptr<const World> shared_world_;    ///< Null if trials draw the scene.
+  std::shared_ptr<const Sensor> shared_sensor_;  ///< Null if trials draw the sensor.
+  std::vector<std::unique_ptr<Detector>> shared_detectors_;  ///< Empty if trials draw the sensor.
+};
+
+}  // namespace fenestra

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace fenestra::cli {
+
+/// Exit codes of the program.
+enum ExitCode : int {
+  kDone = 0,
+  kBoundViolated = 1,
+  kInputError = 2,
+  kFailure = 3,
+};
+
+/// Each adds one command to the program. A command runs when the command line has been parsed and
+/// leaves the program's exit code in `exit_code`.
+void AddRunCommand(CLI::App& program, int& exit_code);
+void AddRenderCommand(CLI::App& program, int& exit_code);
+void AddReplayCommand(CLI::App& program, int& exit_code);
+void AddDetectCommand(CLI::App& program, int& exit_code);
+void AddListCommand(CLI::App& program, int& exit_code);
+
+}  // namespace fenestra::cli

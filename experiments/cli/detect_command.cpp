@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/calibration_io.h"
+#include "core/did_you_mean.h"
+#include "core/image_io.h"
+#include "core/input_error.h"
+#include "experiments/cli/commands.h"
+#include "experiments/detection_json.h"
+#include "experiments/trial_files.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+struct DetectArguments {
+  std::string detector;
+  std::vector<std::string> options;  ///< "name=value"
+  std::filesystem::path calibration;
+  std::filesystem::path left, right;    ///< Stereo.
+  std::filesystem::path color, depth;   ///< RGB-D.
+  double depth_scale = 0.0;             ///< Units per metre; 0: as the calibration says.
+  bool json = false;
+  std::filesystem::path pictures;
+};
+
+OptionValues ParseOptions(const DetectorInfo& detector, const std::vector<std::string>& options) {
+  OptionValues values;
+  std::vector<std::string> known;
+  for (const ParameterInfo& info : detector.options) known.push_back(info.name);
+  for (const std::string& option : options) {
+    const size_t equals = option.find('=');
+    const std::string name = option.substr(0, equals);
+    const auto info = std::find_if(detector.options.begin(), detector.options.end(),
+                                   [&name](const ParameterInfo& i) { return i.name == name; });
+    if (equals == std::string::npos || info == detector.options.end()) {
+      throw InputError("--option", fmt::format("'{}' is not NAME=VALUE with an option of {}.{}",
+                                               option, detector.name, DidYouMean(name, known)));
+    }
+    YamlReader reader = YamlReader::FromText(option.substr(equals + 1), "--option " + name);
+    const auto value = info->Read(reader, reader.root());
+    reader.ThrowIfFaulty();
+    values[name] = *value;
+  }
+  return values;
+}
+
+const DetectorInfo& DetectorFor(const std::string& name, SensorKind sensor) {
+  const DetectorInfo* info = FindDetector(name);
+  if (info != nullptr && info->sensor == sensor) return *info;
+  std::vector<std::string> names;
+  for (const DetectorInfo& detector : Detectors()) {
+    if (detector.sensor == sensor) names.push_back(detector.name);
+  }
+  throw InputError("--detector", fmt::format("there is no {} detector '{}'.{} Known: {}.",
+                                             ToString(sensor), name, DidYouMean(name, names),
+                                             fmt::join(names, ", ")));
+}
+
+void Detect(const DetectArguments& arguments, const Observation& observation,
+            const SensorCalibration& calibration, SensorKind sensor) {
+  const DetectorInfo& info = DetectorFor(arguments.detector, sensor);
+  const auto detector =
+      MakeDetector(info.name, calibration, ParseOptions(info, arguments.options));
+  StageLog log(SteadyClock(), !arguments.pictures.empty());
+  const Detection detection = detector->Detect(observation, log);
+  log.End();
+  if (!arguments.pictures.empty()) {
+    WritePictures(arguments.pictures, observation, calibration, nullptr,
+                  std::get_if<WindowEstimate>(&detection), log);
+  }
+  fmt::print("{}", arguments.json ? DetectionJson(info.name, detection, log)
+                                  : DetectionText(info.name, detection, log));
+}
+
+void DetectStereo(const DetectArguments& arguments) {
+  const StereoCalibration calibration = ReadStereoCalibration(arguments.calibration);
+  const StereoObservation observation{ReadGrayImage(arguments.left), ReadGrayImage(arguments.right)};
+  Detect(arguments, observation, calibration, SensorKind::kStereo);
+}
+
+void DetectRgbd(const DetectArguments& arguments) {
+  RgbdCalibration calibration = ReadRgbdCalibration(arguments.calibration);
+  if (arguments.depth_scale > 0.0) calibration.depth_unit_m = 1.0 / arguments.depth_scale;
+  const RgbdObservation observation{
+      ReadColorImage(arguments.color),
+      {ReadDepthImage(arguments.depth), calibration.depth_unit_m}};
+  Detect(arguments, observation, calibration, SensorKind::kRgbd);
+}
+
+void AddCommonOptions(CLI::App& command, DetectArguments& arguments,
+                      const std::string& default_detector) {
+  arguments.detector = default_detector;
+  command.add_option("--calibration", arguments.calibration, "Calibration file (YAML)")->required();
+  command.add_option("--detector", arguments.detector, "Name of the detector")
+      ->capture_default_str();
+  command.add_option("--option", arguments.options,
+                     "NAME=VALUE of the detector; may be given several times");
+  command.add_flag("--json", arguments.json, "Print JSON");
+  command.add_option("--pictures", arguments.pictures, "Folder for the pictures of every stage");
+}
+
+}  // namespace
+
+void AddDetectCommand(CLI::App& program, int& exit_code) {
+  CLI::App* detect = program.add_subcommand("detect", "Runs a detector on recorded image files");
+  detect->require_subcommand(1);
+  detect->footer(
+      "Example:\n"
+      "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml --json");
+
+  CLI::App* stereo = detect->add_subcommand("stereo", "On a pair of grey images");
+  const auto stereo_arguments = std::make_shared<DetectArguments>();
+  stereo->add_option("--left", stereo_arguments->left, "Left image, 8-bit grey")->required();
+  stereo->add_option("--right", stereo_arguments->right, "Right image, 8-bit grey")->required();
+  AddCommonOptions(*stereo, *stereo_arguments, "paper-stereo");
+  stereo->footer(
+      "Example:\n"
+      "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml "
+      "--pictures /tmp/stages");
+  stereo->callback([stereo_arguments, &exit_code] {
+    DetectStereo(*stereo_arguments);
+    exit_code = kDone;
+  });
+
+  CLI::App* rgbd = detect->add_subcommand("rgbd", "On a colour image and a depth image");
+  const auto rgbd_arguments = std::make_shared<DetectArguments>();
+  rgbd->add_option("--color", rgbd_arguments->color, "Colour image, 8 bits")->required();
+  rgbd->add_option("--depth", rgbd_arguments->depth, "Depth image, 16 bits, 0: no return")
+      ->required();
+  rgbd->add_option("--depth-scale", rgbd_arguments->depth_scale,
+                   "Units per metre; default: as the calibration says")
+      ->check(CLI::PositiveNumber);
+  AddCommonOptions(*rgbd, *rgbd_arguments, "paper-rgbd");
+  rgbd->footer(
+      "Example:\n"
+      "  fenestra detect rgbd --color C.png --depth D.png --depth-scale 5000 "
+      "--calibration rgbd.yaml");
+  rgbd->callback([rgbd_arguments, &exit_code] {
+    DetectRgbd(*rgbd_arguments);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli

@@ -1,0 +1,59 @@
+#include <fmt/format.h>
+
+#include "experiments/cli/commands.h"
+#include "experiments/factors.h"
+#include "experiments/study_catalogue.h"
+#include "experiments/study_reader.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+void PrintParameters(const std::vector<ParameterInfo>& infos, const std::string& indent) {
+  size_t name_width = 0;
+  size_t default_width = 0;
+  for (const ParameterInfo& info : infos) {
+    name_width = std::max(name_width, info.name.size());
+    default_width = std::max(default_width, ToString(info.default_value).size());
+  }
+  for (const ParameterInfo& info : infos) {
+    fmt::print("{}{:<{}}  {:>{}}  {} Allowed: {}.\n", indent, info.name, name_width,
+               ToString(info.default_value), default_width, info.description, info.Allowed());
+  }
+}
+
+void ListDetectors() {
+  for (const DetectorInfo& detector : Detectors()) {
+    fmt::print("{} ({}): {}\n", detector.name, ToString(detector.sensor), detector.description);
+    PrintParameters(detector.options, "    ");
+  }
+}
+
+void ListStudies() {
+  for (const std::string& name : BuiltInStudies()) {
+    const Study study = ReadStudyFile(FindStudy(name), Detectors());
+    fmt::print("{:<12} {}\n", name, study.description);
+  }
+}
+
+}  // namespace
+
+void AddListCommand(CLI::App& program, int& exit_code) {
+  CLI::App* list = program.add_subcommand("list", "Shows detectors, factors or studies");
+  list->footer(
+      "Example:\n"
+      "  fenestra list factors | grep window");
+  list->require_subcommand(1);
+  list->add_subcommand("detectors", "All detectors and their options with defaults")->callback([] {
+    ListDetectors();
+  });
+  list->add_subcommand("factors", "All that a study can vary, with defaults")->callback([] {
+    PrintParameters(Factors().infos(), "");
+  });
+  list->add_subcommand("studies", "The studies that come with the program")->callback([] {
+    ListStudies();
+  });
+  list->callback([&exit_code] { exit_code = kDone; });
+}
+
+}  // namespace fenestra::cli

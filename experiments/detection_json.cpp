@@ -1,0 +1,66 @@
+#include "experiments/detection_json.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+namespace fenestra {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+ordered_json ToJson(const WindowEstimate& estimate) {
+  ordered_json corners = ordered_json::array();
+  for (const Eigen::Vector3d& p_CV : estimate.p_CV) corners.push_back(ToJson(p_CV));
+  ordered_json json = {{"centroid_m", ToJson(estimate.p_CO)},
+                       {"corners_m", corners},
+                       {"normal", ToJson(estimate.normal_C)}};
+  if (estimate.covariance_C) {
+    ordered_json rows = ordered_json::array();
+    for (int i = 0; i < 3; ++i) {
+      rows.push_back(ToJson(Eigen::Vector3d(estimate.covariance_C->row(i))));
+    }
+    json["centroid_covariance_m2"] = rows;
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string DetectionJson(const std::string& detector, const Detection& detection,
+                          const StageLog& log) {
+  ordered_json json = {{"detector", detector}};
+  if (const auto* miss = std::get_if<Miss>(&detection)) {
+    json["outcome"] = "miss";
+    json["reason"] = miss->reason;
+    json["detail"] = miss->detail;
+  } else {
+    json["outcome"] = "window";
+    json.update(ToJson(std::get<WindowEstimate>(detection)));
+  }
+  for (const StageTime& time : log.times()) json["stage_seconds"][time.stage] = time.seconds;
+  return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string DetectionText(const std::string& detector, const Detection& detection,
+                          const StageLog& log) {
+  std::string text;
+  if (const auto* miss = std::get_if<Miss>(&detection)) {
+    text = fmt::format("{}: no window ({}: {})\n", detector, miss->reason, miss->detail);
+  } else {
+    const auto& e = std::get<WindowEstimate>(detection);
+    text = fmt::format(
+        "{}: window at x {:.4f} m (right), y {:.4f} m (down), z {:.4f} m (ahead)\n"
+        "  about {:.3f} m wide and {:.3f} m high\n",
+        detector, e.p_CO.x(), e.p_CO.y(), e.p_CO.z(), (e.p_CV[1] - e.p_CV[0]).norm(),
+        (e.p_CV[3] - e.p_CV[0]).norm());
+  }
+  for (const StageTime& time : log.times()) {
+    text += fmt::format("  {:<12} {:7.1f} ms\n", time.stage, 1e3 * time.seconds);
+  }
+  return text + fmt::format("  {:<12} {:7.1f} ms\n", "total", 1e3 * log.TotalSeconds());
+}
+
+}  // namespace fenestra

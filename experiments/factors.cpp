@@ -1,0 +1,256 @@
+#include "experiments/factors.h"
+
+#include <numbers>
+
+#include "core/check.h"
+
+namespace fenestra {
+namespace {
+
+using Table = ParameterTable<TrialSettings>;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kMilli = 1e-3;
+constexpr double kMicro = 1e-6;
+
+// The field of the settings that a factor stands for.
+// clang-format off
+#define FIELD(path) [](TrialSettings& s) -> auto& { return s.path; }
+// clang-format on
+
+void AddViewpoint(Table& t) {
+  t.Number("distance_m", FIELD(viewpoint.distance_m), {0.1, 100.0},
+           "From the window's centroid to the rig.")
+      .Number("azimuth_deg", FIELD(viewpoint.azimuth_rad), {-89.0, 89.0, kDegree},
+              "Direction of the rig as seen from the window, to the viewer's right.")
+      .Number("elevation_deg", FIELD(viewpoint.elevation_rad), {-89.0, 89.0, kDegree},
+              "Direction of the rig as seen from the window, upwards.")
+      .Number("yaw_deg", FIELD(viewpoint.yaw_rad), {-180.0, 180.0, kDegree},
+              "Turn to the right, away from looking at the centroid.")
+      .Number("pitch_deg", FIELD(viewpoint.pitch_rad), {-180.0, 180.0, kDegree},
+              "Turn upwards, after the yaw.")
+      .Number("roll_deg", FIELD(viewpoint.roll_rad), {-180.0, 180.0, kDegree},
+              "Turn clockwise about the optical axis, after the pitch.");
+}
+
+void AddScene(Table& t) {
+  t.Choice("scene", FIELD(scene), {kPaperTargetScene, kFacadeScene},
+           "A black square painted on a wall, or a wall with a real window.")
+      .Switch("target", FIELD(window.with_target), "Whether there is a window to find.")
+      .Number("window_width_m", FIELD(window.width_m), {0.05, 20.0}, "Outer width of the frame.")
+      .Number("window_height_m", FIELD(window.height_m), {0.05, 20.0}, "Outer height of the frame.")
+      .Number("frame_width_m", FIELD(window.frame_width_m), {0.001, 5.0},
+              "Width of the frame or of the painted border, seen from the front.")
+      .Number("wall_width_m", FIELD(window.wall_width_m), {0.1, 200.0},
+              "The wall is centred on the window.")
+      .Number("wall_height_m", FIELD(window.wall_height_m), {0.1, 200.0},
+              "The wall is centred on the window.")
+      .Number("wall_reflectance", FIELD(window.wall_reflectance), {0.0, 1.0},
+              "Of the wall, in visible light.")
+      .Number("wall_reflectance_830nm", FIELD(window.wall_reflectance_830nm), {0.0, 1.0},
+              "Of the wall, in the projector's infra-red.")
+      .Number("frame_reflectance", FIELD(window.frame_reflectance), {0.0, 1.0},
+              "Of the frame, in visible light.")
+      .Number("frame_reflectance_830nm", FIELD(window.frame_reflectance_830nm), {0.0, 1.0},
+              "Of the frame, in the projector's infra-red.");
+}
+
+void AddFacade(Table& t) {
+  t.Number("frame_depth_m", FIELD(window.frame_depth_m), {0.001, 1.0},
+           "Of the frame, along the wall's normal.")
+      .Number("frame_setback_m", FIELD(window.frame_setback_m), {0.0, 1.0},
+              "Front of the frame behind the wall's outer face.")
+      .Number("wall_thickness_m", FIELD(window.wall_thickness_m), {0.01, 2.0},
+              "Of the wall, which is the depth of the reveal.")
+      .Number("room_depth_m", FIELD(window.room_depth_m), {0.1, 50.0},
+              "Of the room behind the window.")
+      .Switch("glass", FIELD(window.glass), "Whether the window has a pane.")
+      .Number("room_reflectance", FIELD(window.room_reflectance), {0.0, 1.0},
+              "Of the room's surfaces, in visible light.")
+      .Number("room_reflectance_830nm", FIELD(window.room_reflectance_830nm), {0.0, 1.0},
+              "Of the room's surfaces, in the projector's infra-red.");
+}
+
+void AddLight(Table& t) {
+  // 128 klx is the solar illuminance outside the atmosphere; a bright overcast sky gives 20 klx.
+  t.Number("sun_illuminance_lx", FIELD(lighting.sun.illuminance_lx), {0.0, 128e3},
+           "Of the sun, on a plane perpendicular to its rays; 0: no sun.")
+      .Number("sun_azimuth_deg", FIELD(lighting.sun.azimuth_rad), {-180.0, 180.0, kDegree},
+              "From the wall's normal towards the viewer's right.")
+      .Number("sun_elevation_deg", FIELD(lighting.sun.elevation_rad), {0.0, 90.0, kDegree},
+              "Above the horizon.")
+      .Number("sky_illuminance_lx", FIELD(lighting.sky.illuminance_lx), {0.0, 128e3},
+              "Of the sky, on an unobstructed horizontal plane.")
+      .Number("ground_reflectance", FIELD(lighting.sky.ground_reflectance), {0.0, 1.0},
+              "Of the ground, which the sky lights.")
+      .Number("ambient_830nm_ratio", FIELD(lighting.irradiance_830_per_lux),
+              {0.0, 100.0, kDaylightIrradiance830PerLux},
+              "Infra-red at 830 nm per lux of ambient light, in multiples of daylight's: "
+              "1 daylight, 0 LED lamps.");
+}
+
+void AddStereoCameras(Table& t) {
+  t.Integer("stereo_width_px", FIELD(stereo.width_px), {64, 4096}, "Of each image.")
+      .Integer("stereo_height_px", FIELD(stereo.height_px), {64, 4096}, "Of each image.")
+      .Number("stereo_pixel_pitch_um", FIELD(stereo.pixel_pitch_m), {0.5, 50.0, kMicro},
+              "From one pixel's centre to the next.")
+      .Number("stereo_focal_length_mm", FIELD(stereo.focal_length_m), {0.5, 100.0, kMilli},
+              "Of each lens.")
+      .Number("stereo_baseline_m", FIELD(stereo.baseline_m), {0.01, 5.0},
+              "From the left camera to the right one.")
+      .Number("stereo_k1", FIELD(stereo.distortion.k1), {-1.0, 1.0},
+              "Radial distortion, second order.")
+      .Number("stereo_k2", FIELD(stereo.distortion.k2), {-1.0, 1.0},
+              "Radial distortion, fourth order.")
+      .Number("stereo_k3", FIELD(stereo.distortion.k3), {-1.0, 1.0},
+              "Radial distortion, sixth order.")
+      .Number("stereo_p1", FIELD(stereo.distortion.p1), {-0.1, 0.1}, "Tangential distortion.")
+      .Number("stereo_p2", FIELD(stereo.distortion.p2), {-0.1, 0.1}, "Tangential distortion.")
+      .Number("stereo_rotation_tolerance_mrad", FIELD(stereo.rotation_tolerance_rad),
+              {0.0, 50.0, kMilli},
+              "Error of the calibrated rotation between the cameras, standard deviation per axis.")
+      .Number("stereo_translation_tolerance_mm", FIELD(stereo.translation_tolerance_m),
+              {0.0, 50.0, kMilli},
+              "Error of the calibrated translation, standard deviation per axis.")
+      .Integer("stereo_edge_samples", FIELD(stereo.edge_samples_per_pixel), {4, 256},
+               "Rays through a pixel that an edge crosses: 4, 16, 64 or 256.");
+}
+
+void AddStereoImages(Table& t) {
+  t.Number("stereo_f_number", FIELD(stereo.lens.f_number), {0.7, 32.0}, "Aperture.")
+      .Number("stereo_transmission", FIELD(stereo.lens.transmission), {0.01, 1.0},
+              "Share of the light that the lens lets through.")
+      .Number("stereo_blur_px", FIELD(stereo.lens.blur_sigma_px), {0.0, 10.0},
+              "Standard deviation of the lens' Gaussian point spread.")
+      .Number("stereo_electrons_per_lux_s", FIELD(stereo.sensor.electrons_per_lux_s), {1.0, 1e8},
+              "Sensitivity of a pixel.")
+      .Number("stereo_saturation_e", FIELD(stereo.sensor.saturation_e), {10.0, 1e7},
+              "Electrons at full scale.")
+      .Number("stereo_read_noise_e", FIELD(stereo.sensor.read_noise_e), {0.0, 1e4},
+              "Standard deviation of the read noise.")
+      .Switch("stereo_noise", FIELD(stereo.sensor.noise), "Shot noise and read noise.")
+      .Switch("stereo_auto_exposure", FIELD(stereo.exposure.automatic),
+              "Choose the exposure by the image's mean.")
+      .Number("stereo_exposure_set_point", FIELD(stereo.exposure.set_point), {0.01, 0.99},
+              "Mean signal as a fraction of full scale, with automatic exposure.")
+      .Number("stereo_shortest_exposure_ms", FIELD(stereo.exposure.shortest_s), {1e-4, 1e4, kMilli},
+              "Limit of the automatic exposure.")
+      .Number("stereo_longest_exposure_ms", FIELD(stereo.exposure.longest_s), {1e-4, 1e4, kMilli},
+              "Limit of the automatic exposure.")
+      .Number("stereo_exposure_ms", FIELD(stereo.exposure.exposure_s), {1e-4, 1e4, kMilli},
+              "Exposure without automatic exposure.");
+}
+
+void AddRgbdDepth(Table& t) {
+  t.Switch("rgbd_near_mode", FIELD(rgbd.near_mode), "Range 0.4–3 m instead of 0.8–4 m.")
+      .Integer("rgbd_depth_width_px", FIELD(rgbd.depth_width_px), {64, 4096}, "Of the depth image.")
+      .Integer("rgbd_depth_height_px", FIELD(rgbd.depth_height_px), {64, 4096},
+               "Of the depth image.")
+      .Number("rgbd_depth_focal_px", FIELD(rgbd.depth_focal_px), {10.0, 1e4},
+              "Of the depth camera.")
+      .Number("rgbd_projector_baseline_m", FIELD(rgbd.projector_baseline_m), {0.001, 1.0},
+              "From the depth camera to the projector.")
+      .Number("rgbd_disparity_step_px", FIELD(rgbd.disparity_step_px), {0.0, 10.0},
+              "Quantum of the disparity.")
+      .Number("rgbd_disparity_noise_px", FIELD(rgbd.disparity_noise_px), {0.0, 10.0},
+              "Standard deviation of the disparity before quantisation.")
+      .Integer("rgbd_matching_window_px", FIELD(rgbd.matching_window_px), {1, 31},
+               "Side of the window that is matched: its pixels share their noise.")
+      .Number("rgbd_lateral_noise_px", FIELD(rgbd.lateral_noise_px), {0.0, 10.0},
+              "Lateral jitter of each depth pixel, standard deviation.")
+      .Number("rgbd_dot_signal_dn", FIELD(rgbd.dot_signal_dn), {0.0, 1e6},
+              "Of a dot on a surface of reflectance 0.8 at 1 m.")
+      .Number("rgbd_dot_irradiance_w_m2", FIELD(rgbd.dot_irradiance), {1e-6, 1e6},
+              "Of a dot at 1 m, at its peak.")
+      .Number("rgbd_dark_noise_dn", FIELD(rgbd.dark_noise_dn), {0.0, 1e4},
+              "Standard deviation of the infra-red image.")
+      .Number("rgbd_shot_noise_dn", FIELD(rgbd.shot_noise_dn), {0.0, 1e3},
+              "Variance of the infra-red image per DN of signal.")
+      .Number("rgbd_saturation_dn", FIELD(rgbd.saturation_dn), {1.0, 1e6},
+              "Full scale of the infra-red image.")
+      .Number("rgbd_matching_snr", FIELD(rgbd.matching_snr), {0.0, 1e3},
+              "Signal to noise of a block that is just matched.")
+      .Number("rgbd_grazing_limit_deg", FIELD(rgbd.grazing_limit_rad), {1.0, 89.9, kDegree},
+              "Angle of incidence beyond which there is no return.")
+      .Number("rgbd_filter_width_nm", FIELD(rgbd.filter_width_nm), {0.1, 1e3},
+              "Full width of the infra-red filter.");
+}
+
+void AddRgbdColor(Table& t) {
+  t.Integer("rgbd_color_width_px", FIELD(rgbd.color_width_px), {64, 4096}, "Of the colour image.")
+      .Integer("rgbd_color_height_px", FIELD(rgbd.color_height_px), {64, 4096},
+               "Of the colour image.")
+      .Number("rgbd_color_focal_px", FIELD(rgbd.color_focal_px), {10.0, 1e4},
+              "Of the colour camera.")
+      .Number("rgbd_color_offset_m", FIELD(rgbd.color_offset_m), {-1.0, 1.0},
+              "From the depth camera to the colour camera, to the right.")
+      .Number("rgbd_color_f_number", FIELD(rgbd.color_lens.f_number), {0.7, 32.0}, "Aperture.")
+      .Number("rgbd_color_transmission", FIELD(rgbd.color_lens.transmission), {0.01, 1.0},
+              "Share of the light that the lens lets through.")
+      .Number("rgbd_color_blur_px", FIELD(rgbd.color_lens.blur_sigma_px), {0.0, 10.0},
+              "Standard deviation of the lens' Gaussian point spread.")
+      .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color_sensor.electrons_per_lux_s),
+              {1.0, 1e8}, "Sensitivity of a pixel.")
+      .Number("rgbd_color_saturation_e", FIELD(rgbd.color_sensor.saturation_e), {10.0, 1e7},
+              "Electrons at full scale.")
+      .Number("rgbd_color_read_noise_e", FIELD(rgbd.color_sensor.read_noise_e), {0.0, 1e4},
+              "Standard deviation of the read noise.")
+      .Switch("rgbd_color_noise", FIELD(rgbd.color_sensor.noise),
+              "Shot noise and read noise of the colour image.")
+      .Switch("rgbd_color_auto_exposure", FIELD(rgbd.color_auto_exposure),
+              "Choose the exposure by the image's mean.")
+      .Number("rgbd_color_mean_dn", FIELD(rgbd.color_mean_dn), {1.0, 254.0},
+              "Mean of the sRGB-encoded image, with automatic exposure.")
+      .Number("rgbd_color_exposure_ms", FIELD(rgbd.color_exposure_s), {1e-4, 1e4, kMilli},
+              "Exposure without automatic exposure.")
+      .Integer("rgbd_edge_samples", FIELD(rgbd.edge_samples_per_pixel), {4, 256},
+               "Rays through a pixel that an edge crosses: 4, 16, 64 or 256.");
+}
+
+#undef FIELD
+
+struct GroupedTable {
+  Table table;
+  std::vector<FactorGroup> groups;  // Of each factor of the table.
+
+  void Add(FactorGroup group, void (*add)(Table&)) {
+    add(table);
+    groups.resize(table.infos().size(), group);
+  }
+};
+
+const GroupedTable& AllFactors() {
+  static const GroupedTable all = [] {
+    GroupedTable factors;
+    factors.Add(FactorGroup::kViewpoint, AddViewpoint);
+    factors.Add(FactorGroup::kScene, AddScene);
+    factors.Add(FactorGroup::kFacade, AddFacade);
+    factors.Add(FactorGroup::kLight, AddLight);
+    factors.Add(FactorGroup::kStereo, AddStereoCameras);
+    factors.Add(FactorGroup::kStereo, AddStereoImages);
+    factors.Add(FactorGroup::kRgbd, AddRgbdDepth);
+    factors.Add(FactorGroup::kRgbd, AddRgbdColor);
+    return factors;
+  }();
+  return all;
+}
+
+}  // namespace
+
+const ParameterTable<TrialSettings>& Factors() {
+  return AllFactors().table;
+}
+
+FactorGroup GroupOf(const std::string& factor) {
+  const ParameterInfo* info = Factors().Find(factor);
+  FENESTRA_CHECK(info != nullptr, "unknown factor " + factor);
+  return AllFactors().groups[static_cast<size_t>(info - Factors().infos().data())];
+}
+
+bool Concerns(FactorGroup group, SensorKind sensor) {
+  if (group == FactorGroup::kStereo) return sensor == SensorKind::kStereo;
+  if (group == FactorGroup::kRgbd) return sensor == SensorKind::kRgbd;
+  return true;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+namespace fenestra {
+
+/// Bytes 68–71 of the file, big-endian: "Fene". Tells Fenestra's files from other SQLite files.
+inline constexpr uint32_t kStoreApplicationId = 0x46656e65;
+/// Bytes 60–63 of the file. Counts up with every change to the tables.
+inline constexpr uint32_t kStoreSchemaVersion = 1;
+
+/// Numbers of estimate and truth are declared ANY: a REAL column would keep a whole number as an
+/// integer and so lose the sign of -0.0. The columns centroid_error_* repeat estimate minus truth
+/// in millimetres for queries; they are not read back.
+inline constexpr char kStoreSchema[] = R"sql(
+CREATE TABLE meta (
+  key   TEXT PRIMARY KEY,
+  value TEXT NOT NULL
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE trials (
+  cell                INTEGER NOT NULL,
+  trial               INTEGER NOT NULL,
+  detector            TEXT NOT NULL,
+  part                TEXT NOT NULL,
+  sensor              TEXT NOT NULL,  -- stereo, rgbd
+  levels              TEXT NOT NULL,  -- JSON {"distance_m": 1.4, ...}, the same for all of a cell
+  drawn               TEXT NOT NULL,  -- JSON, drawn anew in every trial
+  outcome             TEXT NOT NULL,  -- hit, gross, wrong_window, missed, crashed, out_of_view,
+                                      -- false_alarm, clear
+  reason              TEXT NOT NULL,  -- of a miss or a crash
+  detail              TEXT NOT NULL,
+  centroid_error_x_mm REAL,           -- to the right
+  centroid_error_y_mm REAL,           -- down
+  centroid_error_z_mm REAL,           -- in depth
+  centroid_error_mm   REAL,           -- length of the three
+  estimate_x_m        ANY,            -- centroid in the scored camera's frame
+  estimate_y_m        ANY,
+  estimate_z_m        ANY,
+  estimate_normal_x   ANY,            -- unit vector
+  estimate_normal_y   ANY,
+  estimate_normal_z   ANY,
+  estimate_corners_m  TEXT,           -- JSON [[x, y, z], ...]: top left, top right, bottom right,
+                                      -- bottom left
+  estimate_covariance_m2 TEXT,        -- JSON 3 x 3, of the centroid
+  truth_x_m           ANY,            -- NULL in a scene without a target
+  truth_y_m           ANY,
+  truth_z_m           ANY,
+  stage_times_s       TEXT NOT NULL,  -- JSON {"rectify": 0.012, ...}
+  PRIMARY KEY (cell, trial, detector)
+) STRICT, WITHOUT ROWID;
+)sql";
+
+}  // namespace fenestra

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/observation.h"
+#include "core/parameter_table.h"
+#include "experiments/distribution.h"
+#include "experiments/factors.h"
+#include "experiments/trial_settings.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra {
+
+inline constexpr int64_t kMostCells = 10'000;
+inline constexpr int64_t kMostTrials = 1'000'000;
+
+/// The values of a factor that are compared with each other; a single one is a fixed value.
+using Levels = std::vector<ParameterValue>;
+
+/// What a study does with one factor. Numbers have the unit of the factor's name.
+struct Factor {
+  std::string name;
+  std::variant<Levels, Distribution> setting;
+
+  bool operator==(const Factor&) const = default;
+};
+
+/// A detector under test with all its options. The label names it in results, where the same
+/// detector may stand several times with different options.
+struct DetectorChoice {
+  std::string label;
+  std::string name;
+  SensorKind sensor;
+  OptionValues options;
+
+  bool operator==(const DetectorChoice&) const = default;
+};
+
+/// One grid of conditions.
+struct StudyPart {
+  std::string name;
+  std::vector<SensorKind> sensors;
+  std::vector<DetectorChoice> detectors;
+  /// Every factor that concerns this part: those that the study gives, in the order in which it
+  /// gives them, then all others at their defaults.
+  std::vector<Factor> factors;
+  int repetitions;  ///< Trials of each cell.
+
+  bool operator==(const StudyPart&) const = default;
+};
+
+/// A question with everything that its answer depends on: nothing is left to defaults.
+struct Study {
+  std::string name;  ///< [a-z0-9_-]+
+  std::string description;
+  uint64_t seed;
+  /// Whether every cell has random numbers of its own. Otherwise the same trial of different cells
+  /// shares them, so that differences between cells are not blurred by different luck.
+  bool independent_cells;
+  std::vector<StudyPart> parts;
+
+  bool operator==(const Study&) const = default;
+};
+
+/// One condition: one level of each factor, seen by one sensor.
+struct Cell {
+  int index;          ///< In the study, from 0.
+  size_t part_index;  ///< Into Study::parts.
+  std::string part;
+  SensorKind sensor;
+  /// Of the factors that have several levels in this part and concern the sensor.
+  FactorValues levels;
+  /// With all fixed values and levels; factors with distributions are at their defaults.
+  TrialSettings settings;
+  int repetitions;
+};
+
+/// All cells: part by part, in each sensor by sensor, in each the full grid of levels in the order
+/// in which the factors stand, the last one running fastest.
+std::vector<Cell> Cells(const Study& study);
+
+/// How many cells and trials the study has, without making them. At most 10^18 each, however large
+/// the grid is.
+int64_t CountCells(const Study& study);
+int64_t CountTrials(const Study& study);
+
+/// The detectors that work on the cell's sensor.
+std::vector<DetectorChoice> DetectorsOf(const Study& study, const Cell& cell);
+
+/// The factors of the cell's part that are drawn anew in every trial and concern its sensor.
+std::vector<std::pair<std::string, Distribution>> DrawnFactors(const Study& study,
+                                                               const Cell& cell);
+
+}  // namespace fenestra

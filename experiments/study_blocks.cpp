@@ -1,0 +1,100 @@
+#include "experiments/study_blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/did_you_mean.h"
+#include "experiments/factor_reader.h"
+#include "experiments/factors.h"
+
+namespace fenestra {
+namespace {
+
+std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node) {
+  static const std::vector<std::string> names{ToString(SensorKind::kStereo),
+                                              ToString(SensorKind::kRgbd)};
+  const auto name = reader.Text(node, "a sensor");
+  if (!name) return std::nullopt;
+  if (*name == names[0]) return SensorKind::kStereo;
+  if (*name == names[1]) return SensorKind::kRgbd;
+  reader.AddFault(node,
+                  fmt::format("unknown sensor '{}'. Known: {}.", *name, fmt::join(names, ", ")));
+  return std::nullopt;
+}
+
+std::optional<std::vector<SensorKind>> ReadSensors(YamlReader& reader, const YAML::Node& node) {
+  if (!node.IsSequence() || node.size() == 0) {
+    reader.AddFault(node, fmt::format("sensors must be a list such as [stereo, rgbd], not {}",
+                                      YamlReader::Describe(node)));
+    return std::nullopt;
+  }
+  std::vector<SensorKind> sensors;
+  bool good = true;
+  for (const YAML::Node& item : node) {
+    const auto sensor = ReadSensor(reader, item);
+    good = good && sensor.has_value();
+    if (!sensor) continue;
+    if (std::find(sensors.begin(), sensors.end(), *sensor) != sensors.end()) {
+      reader.AddFault(item, fmt::format("the sensor '{}' stands twice", ToString(*sensor)));
+      good = false;
+    }
+    sensors.push_back(*sensor);
+  }
+  return good ? std::optional(sensors) : std::nullopt;
+}
+
+std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node) {
+  std::vector<GivenFactor> given;
+  reader.CheckKeys(node, "factors", Factors().Names());
+  if (!node.IsMap()) return given;
+  for (const auto& entry : node) {
+    if (!entry.first.IsScalar()) continue;  // CheckKeys has noted it, as it has unknown names.
+    const ParameterInfo* info = Factors().Find(entry.first.Scalar());
+    if (info == nullptr) continue;
+    if (const auto setting = ReadFactorSetting(reader, *info, entry.second)) {
+      given.push_back({{info->name, *setting}, entry.first});
+    }
+  }
+  return given;
+}
+
+}  // namespace
+
+const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
+  const auto found =
+      std::find_if(factors.begin(), factors.end(),
+                   [&name](const GivenFactor& given) { return given.factor.name == name; });
+  return found == factors.end() ? nullptr : &*found;
+}
+
+const std::vector<std::string>& BlockKeys() {
+  static const std::vector<std::string> keys{"repetitions", "sensors", "detectors", "factors"};
+  return keys;
+}
+
+StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
+                     std::span<const DetectorInfo> known_detectors) {
+  StudyBlock block;
+  block.node = node;
+  if (const YAML::Node repetitions = node["repetitions"]; repetitions.IsDefined()) {
+    const auto count = reader.Integer(repetitions, "repetitions", 1, kMostTrials);
+    block.sound = block.sound && count.has_value();
+    if (count) block.repetitions = static_cast<int>(*count);
+  }
+  if (const YAML::Node sensors = node["sensors"]; sensors.IsDefined()) {
+    block.sensors = ReadSensors(reader, sensors);
+    block.sound = block.sound && block.sensors.has_value();
+  }
+  if (const YAML::Node detectors = node["detectors"]; detectors.IsDefined()) {
+    block.detectors = ReadDetectors(reader, detectors, known_detectors);
+    block.sound = block.sound && block.detectors.has_value();
+  }
+  if (const YAML::Node factors = node["factors"]; factors.IsDefined()) {
+    block.factors = ReadFactors(reader, factors);
+    block.sound = block.sound && block.factors.size() == factors.size();
+  }
+  return block;
+}
+
+}  // namespace fenestra

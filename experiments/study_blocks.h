@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/yaml_reader.h"
+#include "experiments/detector_choice_reader.h"
+#include "experiments/study.h"
+
+namespace fenestra {
+
+/// A factor as a study file gives it, and where.
+struct GivenFactor {
+  Factor factor;
+  YAML::Node key;
+};
+
+/// What a study and each of its parts may say alike; absent where the file says nothing.
+struct StudyBlock {
+  YAML::Node node;
+  std::optional<std::vector<SensorKind>> sensors;
+  std::optional<std::vector<GivenDetector>> detectors;
+  std::vector<GivenFactor> factors;
+  std::optional<int> repetitions;
+  /// Whether the block was read without faults. What it lacks may else be only misspelt.
+  bool sound = true;
+
+  const GivenFactor* FindFactor(const std::string& name) const;
+};
+
+/// The keys that ReadBlock reads.
+const std::vector<std::string>& BlockKeys();
+
+/// Reads those keys of a mapping; faults are noted in the reader.
+StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
+                     std::span<const DetectorInfo> known_detectors);
+
+}  // namespace fenestra

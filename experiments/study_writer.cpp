@@ -1,0 +1,83 @@
+#include "experiments/study_writer.h"
+
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+namespace fenestra {
+namespace {
+
+std::string Quoted(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  return emitter.c_str();
+}
+
+std::string Text(const UniformDistribution& d) {
+  return fmt::format("{{uniform: [{}, {}]}}", d.min, d.max);
+}
+
+std::string Text(const LogUniformDistribution& d) {
+  return fmt::format("{{log_uniform: [{}, {}]}}", d.min, d.max);
+}
+
+std::string Text(const TriangularDistribution& d) {
+  return fmt::format("{{triangular: {{min: {}, mode: {}, max: {}}}}}", d.min, d.mode, d.max);
+}
+
+std::string Text(const TruncatedNormalDistribution& d) {
+  return fmt::format("{{normal: {{mean: {}, sd: {}, min: {}, max: {}}}}}", d.mean, d.sd, d.min,
+                     d.max);
+}
+
+std::string Text(const Distribution& distribution) {
+  return std::visit([](const auto& d) { return Text(d); }, distribution);
+}
+
+std::string Text(const Levels& levels) {
+  if (levels.size() == 1) return ToString(levels.front());
+  std::string text;
+  for (const ParameterValue& level : levels) text += (text.empty() ? "" : ", ") + ToString(level);
+  return "[" + text + "]";
+}
+
+std::string Text(const DetectorChoice& detector) {
+  std::string text =
+      fmt::format("      - name: {}\n        label: {}\n        options:{}\n", detector.name,
+                  detector.label, detector.options.empty() ? " {}" : "");
+  for (const auto& [option, value] : detector.options) {
+    text += fmt::format("          {}: {}\n", option, ToString(value));
+  }
+  return text;
+}
+
+std::string Text(const StudyPart& part) {
+  std::string sensors;
+  for (const SensorKind sensor : part.sensors) {
+    sensors += (sensors.empty() ? "" : ", ") + std::string(ToString(sensor));
+  }
+  std::string text = fmt::format("  - name: {}\n    repetitions: {}\n    sensors: [{}]\n",
+                                 part.name, part.repetitions, sensors);
+  text += "    detectors:\n";
+  for (const DetectorChoice& detector : part.detectors) text += Text(detector);
+  text += "    factors:\n";
+  for (const Factor& factor : part.factors) {
+    text += fmt::format("      {}: {}\n", factor.name, ToYaml(factor.setting));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string ToYaml(const std::variant<Levels, Distribution>& setting) {
+  return std::visit([](const auto& s) { return Text(s); }, setting);
+}
+
+std::string ToYaml(const Study& study) {
+  std::string text = fmt::format(
+      "fenestra_version: {}\nname: {}\ndescription: {}\nseed: {}\nindependent_cells: {}\nparts:\n",
+      FENESTRA_VERSION, study.name, Quoted(study.description), study.seed, study.independent_cells);
+  for (const StudyPart& part : study.parts) text += Text(part);
+  return text;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+
+#include "core/calibration.h"
+#include "core/detection.h"
+#include "core/observation.h"
+#include "core/stage_log.h"
+#include "sim/ground_truth.h"
+
+namespace fenestra {
+
+/// Pictures for people. Here, and in no picture that a detector could read, truth and estimate are
+/// drawn over what the sensors saw: truth in green, an estimate in magenta.
+
+/// The picture with the outline and centroid of the true windows and of the estimate, where there
+/// are any, in each of its views (points in the scored camera's frame C).
+cv::Mat3b DrawTruthAndEstimate(const cv::Mat& image, std::span<const PictureView> views,
+                               const GroundTruth* truth, const WindowEstimate* estimate);
+
+/// Depth in false colours, near red to far blue; no return is black.
+cv::Mat3b DrawDepth(const DepthImage& depth);
+
+/// The views of an observation's own images: of the left and the right image (stereo), of the colour
+/// and of the depth image (RGB-D), as the nominal calibration has them.
+std::array<PictureView, 2> ObservationViews(const SensorCalibration& calibration);
+
+}  // namespace fenestra

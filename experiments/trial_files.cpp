@@ -1,0 +1,179 @@
+#include "experiments/trial_files.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "core/calibration_io.h"
+#include "core/image_io.h"
+#include "experiments/pcd.h"
+#include "experiments/trial_drawing.h"
+#include "renderers/exr_io.h"
+
+namespace fenestra {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+ordered_json ToJson(const Pose& X) {
+  const Eigen::Matrix3d& R = X.rotation();
+  return {{"rotation",
+           {ToJson(Eigen::Vector3d(R.row(0))), ToJson(Eigen::Vector3d(R.row(1))),
+            ToJson(Eigen::Vector3d(R.row(2)))}},
+          {"translation_m", ToJson(X.translation())}};
+}
+
+ordered_json ToJson(const WindowTruth& window) {
+  ordered_json corners = ordered_json::array();
+  for (const Eigen::Vector3d& p_CV : window.p_CV) corners.push_back(ToJson(p_CV));
+  return {{"centroid_m", ToJson(window.p_CO)},
+          {"corners_m", corners},
+          {"normal", ToJson(window.normal_C)},
+          {"width_m", window.width_m},
+          {"height_m", window.height_m}};
+}
+
+std::vector<Eigen::Vector3f> CloudOf(const cv::Mat1f& depth_m, const CameraModel& camera) {
+  std::vector<Eigen::Vector3f> points;
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const float z_m = depth_m(v, u);
+      if (!std::isfinite(z_m) || z_m <= 0.0f) continue;
+      if (const auto ray = camera.UnprojectRay({u, v})) points.push_back(ray->cast<float>() * z_m);
+    }
+  }
+  return points;
+}
+
+cv::Mat1f ToMetres(const DepthImage& depth) {
+  cv::Mat1f depth_m;
+  depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
+  return depth_m;
+}
+
+const CameraModel& ScoredCamera(const SensorCalibration& calibration) {
+  const auto* stereo = std::get_if<StereoCalibration>(&calibration);
+  return stereo != nullptr ? stereo->left : std::get<RgbdCalibration>(calibration).depth;
+}
+
+cv::Mat1f AsFloat(const cv::Mat& image, double scale = 1.0) {
+  cv::Mat1f converted;
+  image.convertTo(converted, CV_32F, scale);
+  return converted;
+}
+
+void WriteTruthExr(const std::filesystem::path& file, const AovImages& aovs) {
+  std::array<cv::Mat1f, 3> normal;
+  cv::split(aovs.normal_C, normal.data());
+  std::vector<ExrChannel> channels = {{"depth_m", aovs.depth_m},
+                                      {"normal.x", normal[0]},
+                                      {"normal.y", normal[1]},
+                                      {"normal.z", normal[2]},
+                                      {"object", AsFloat(aovs.object_id)},
+                                      {"sees_sun", AsFloat(aovs.sees_sun, 1.0 / 255.0)},
+                                      {"transmittance", aovs.transmittance},
+                                      {"irradiance_830", aovs.irradiance_830},
+                                      {"reflectance_830nm", aovs.reflectance_830nm}};
+  if (!aovs.sees_point.empty()) {
+    channels.push_back({"sees_projector", AsFloat(aovs.sees_point, 1.0 / 255.0)});
+  }
+  WriteExr(file, channels,
+           {{"depth_m", "along the optical axis [m]; NaN: nothing hit"},
+            {"normal", "in the camera frame: +x right, +y down, +z forward"},
+            {"irradiance_830", "ambient, on the surface [W/(m^2 nm)]"}});
+}
+
+std::string FactorYaml(const TrialSettings& settings) {
+  std::string yaml;
+  for (const ParameterInfo& info : Factors().infos()) {
+    yaml += fmt::format("{}: {}\n", info.name, ToString(Factors().Get(settings, info.name)));
+  }
+  return yaml;
+}
+
+}  // namespace
+
+void WritePictures(const std::filesystem::path& folder, const Observation& observation,
+                   const SensorCalibration& calibration, const GroundTruth* truth,
+                   const WindowEstimate* estimate, const StageLog& log) {
+  const auto write = [&](const std::string& name, const cv::Mat& image,
+                         std::span<const PictureView> views) {
+    WritePng(folder / (name + ".png"), DrawTruthAndEstimate(image, views, truth, estimate));
+  };
+  const std::array<PictureView, 2> views = ObservationViews(calibration);
+  if (const auto* stereo = std::get_if<StereoObservation>(&observation)) {
+    write("left", stereo->left, {&views[0], 1});
+    write("right", stereo->right, {&views[1], 1});
+  } else {
+    const auto& rgbd = std::get<RgbdObservation>(observation);
+    write("color", rgbd.color, {&views[0], 1});
+    write("depth", DrawDepth(rgbd.depth), {&views[1], 1});
+  }
+  int number = 0;
+  for (const StagePicture& picture : log.pictures()) {
+    write(fmt::format("{}_{}", ++number, picture.name), picture.image, picture.views);
+  }
+  for (const StageCloud& cloud : log.clouds()) {
+    WriteFileAtomically(folder / (cloud.name + ".pcd"), ToPcd(cloud.points_C));
+  }
+}
+
+void WritePictures(const std::filesystem::path& folder, const FinishedTrial& trial) {
+  for (const Attempt& attempt : trial.attempts) {
+    const auto& estimate = attempt.record.score.estimate;
+    WritePictures(folder / attempt.record.detector, trial.simulated.observation,
+                  trial.simulated.calibration, &trial.simulated.truth,
+                  estimate ? &*estimate : nullptr, attempt.log);
+  }
+}
+
+void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
+                      const SensorCalibration& calibration) {
+  if (const auto* stereo = std::get_if<StereoObservation>(&observation)) {
+    WritePng(folder / "left.png", stereo->left);
+    WritePng(folder / "right.png", stereo->right);
+    WriteFileAtomically(folder / "calibration.yaml",
+                        ToOpenCvYaml(std::get<StereoCalibration>(calibration)));
+  } else {
+    const auto& rgbd = std::get<RgbdObservation>(observation);
+    WritePng(folder / "color.png", rgbd.color);
+    WritePng(folder / "depth.png", rgbd.depth.raw);
+    WriteFileAtomically(folder / "calibration.yaml",
+                        ToOpenCvYaml(std::get<RgbdCalibration>(calibration)));
+  }
+}
+
+std::string TruthJson(const SimulatedTrial& simulated) {
+  const GroundTruth& truth = simulated.truth;
+  const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
+  ordered_json json = {{stereo ? "world_from_left" : "world_from_depth", ToJson(truth.X_WC)},
+                       {"target_in_view", truth.in_view},
+                       {"target", truth.target ? ToJson(*truth.target) : ordered_json()},
+                       {"other_windows", ordered_json::array()}};
+  for (const WindowTruth& window : truth.other_windows) {
+    json["other_windows"].push_back(ToJson(window));
+  }
+  return json.dump(2) + "\n";
+}
+
+void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench,
+                     const SimulatedTrial& simulated) {
+  WriteObservation(folder, simulated.observation, simulated.calibration);
+  if (const auto* rgbd = std::get_if<RgbdObservation>(&simulated.observation)) {
+    const CameraModel& camera = ScoredCamera(simulated.calibration);
+    WriteFileAtomically(folder / "cloud.pcd", ToPcd(CloudOf(ToMetres(rgbd->depth), camera)));
+  }
+  const std::filesystem::path truth = folder / "truth";
+  const AovImages aovs = bench.TruthImages(simulated);
+  WriteFileAtomically(truth / "truth.json", TruthJson(simulated));
+  WriteTruthExr(truth / "truth.exr", aovs);
+  WriteFileAtomically(truth / "cloud.pcd",
+                      ToPcd(CloudOf(aovs.depth_m, ScoredCamera(simulated.calibration))));
+  WriteFileAtomically(truth / "trial.yaml", FactorYaml(simulated.trial.settings));
+}
+
+}  // namespace fenestra

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "experiments/cell_bench.h"
+#include "experiments/run_trials.h"
+
+namespace fenestra {
+
+/// Writes what a person looks at: the observation's images and every stage picture of a detector,
+/// truth (green, where it is known) and estimate (magenta) drawn over each, and its clouds (PCD).
+///
+///     left.png, right.png                          (stereo)
+///     color.png, depth.png (false colours)         (RGB-D)
+///     1_<picture>.png, ..., <cloud>.pcd
+void WritePictures(const std::filesystem::path& folder, const Observation& observation,
+                   const SensorCalibration& calibration, const GroundTruth* truth,
+                   const WindowEstimate* estimate, const StageLog& log);
+
+/// The same for every detector of a trial, each in a folder of its name.
+void WritePictures(const std::filesystem::path& folder, const FinishedTrial& trial);
+
+/// Writes one observation as a detector gets it, the files that `fenestra detect` reads:
+///
+///     left.png, right.png, calibration.yaml                          (stereo)
+///     color.png, depth.png (16 bit), calibration.yaml, cloud.pcd     (RGB-D)
+///
+/// and into the folder `truth` what no detector may see:
+///
+///     truth.json    poses and the window's centroid, corners and normal in the scored camera
+///     truth.exr     per pixel: depth, normal, object, visibility (AovImages)
+///     cloud.pcd     the true surface in the scored camera's frame
+///     trial.yaml    every factor's value in this trial
+void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench,
+                     const SimulatedTrial& simulated);
+
+/// Writes an observation and its calibration alone.
+void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
+                      const SensorCalibration& calibration);
+
+/// The truth of a trial as JSON.
+std::string TruthJson(const SimulatedTrial& simulated);
+
+}  // namespace fenestra

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/detection.h"
+#include "core/observation.h"
+#include "core/stage_log.h"
+#include "experiments/factors.h"
+
+namespace fenestra {
+
+/// What became of one trial under one detector. The definitions are the same for all studies;
+/// ScoreDetection makes them, OutcomeDefinition prints them.
+enum class Outcome {
+  kHit,
+  kGross,
+  kWrongWindow,
+  kMissed,
+  kCrashed,
+  kOutOfView,
+  kFalseAlarm,
+  kClear,
+};
+
+inline constexpr std::array<Outcome, 8> kAllOutcomes = {
+    Outcome::kHit,     Outcome::kGross,     Outcome::kWrongWindow, Outcome::kMissed,
+    Outcome::kCrashed, Outcome::kOutOfView, Outcome::kFalseAlarm,  Outcome::kClear,
+};
+
+/// "hit", "gross", "wrong_window", "missed", "crashed", "out_of_view", "false_alarm", "clear".
+const char* ToString(Outcome outcome);
+/// The inverse of ToString; nullopt for any other word.
+std::optional<Outcome> ParseOutcome(std::string_view word);
+/// One sentence for the reader of a report.
+const char* OutcomeDefinition(Outcome outcome);
+
+/// A detection held against the truth. Frame C is the scored camera (see WindowEstimate); metres.
+struct Score {
+  Outcome outcome = Outcome::kMissed;
+  /// Why there is no estimate: the reason of the Miss or the kind of the Crash; otherwise empty.
+  std::string reason;
+  std::string detail;  ///< For people.
+  /// Present whenever the detector gave a sane estimate, whatever the outcome.
+  std::optional<WindowEstimate> estimate;
+  /// Present whenever the scene has a target, in view or not.
+  std::optional<Eigen::Vector3d> truth_p_CO;
+
+  /// Estimate minus truth: x to the right, y down, z in depth. nullopt unless both are there.
+  std::optional<Eigen::Vector3d> CentroidError_C() const;
+};
+
+/// One raw row of a study: one trial seen by one detector. The key is (cell, trial, detector).
+struct TrialRecord {
+  int cell = 0;      ///< Index of the cell in the study.
+  int trial = 0;     ///< Index of the trial in its cell.
+  std::string part;  ///< Name of the study's part.
+  SensorKind sensor = SensorKind::kStereo;
+  std::string detector;  ///< Label of the detector.
+  FactorValues levels;   ///< The same in every trial of the cell.
+  FactorValues drawn;    ///< Drawn anew in every trial.
+  Score score;
+  std::vector<StageTime> stages;
+
+  /// Sum of the stage times; nullopt without any.
+  std::optional<double> TotalSeconds() const;
+};
+
+}  // namespace fenestra

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "core/observation.h"
+#include "scenes/facade.h"
+#include "scenes/lighting.h"
+#include "scenes/paper_target.h"
+#include "scenes/scene.h"
+#include "sim/stereo_rig.h"
+#include "sim/structured_light_sensor.h"
+#include "sim/viewpoint.h"
+
+namespace fenestra {
+
+inline constexpr const char* kPaperTargetScene = "paper_target";
+inline constexpr const char* kFacadeScene = "facade";
+
+/// Everything that one trial is made of, by value. Two equal settings and equal random streams
+/// give equal observations.
+struct TrialSettings {
+  std::string scene = kPaperTargetScene;  ///< kPaperTargetScene or kFacadeScene.
+  /// The window and the wall around it, for both kinds of scene: all that the painted target has,
+  /// a facade has too.
+  FacadeOptions window;
+  Lighting lighting;
+  Viewpoint viewpoint;
+  StereoRigOptions stereo;
+  StructuredLightOptions rgbd;
+};
+
+/// What the painted target takes from the settings; frame_width_m is the width of its border.
+PaperTargetOptions PaperTargetOf(const TrialSettings& settings);
+
+/// The scene of a trial. Throws InputError for sizes that do not fit into each other.
+Scene MakeScene(const TrialSettings& settings);
+
+/// Throws InputError for settings that contradict each other, in the scene or in the sensor.
+void Validate(const TrialSettings& settings, SensorKind sensor);
+
+}  // namespace fenestra

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+namespace fenestra {
+
+/// A named plane of an OpenEXR image, such as "Y", "R" or "depth.Z".
+struct ExrChannel {
+  std::string name;
+  cv::Mat1f values;
+};
+
+/// Channels of one size and text attributes.
+struct ExrImage {
+  std::vector<ExrChannel> channels;  ///< When read: sorted by name, as the file has them.
+  std::map<std::string, std::string> metadata;
+};
+
+/// Writes 32-bit float channels, ZIP-compressed and so without loss, NaN and infinities included.
+/// The file appears by rename. Throws InputError if there are no channels, their sizes differ, a
+/// name is empty or used twice, metadata uses a reserved name, or the file cannot be written.
+void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& channels,
+              const std::map<std::string, std::string>& metadata);
+
+/// Reads the channels (converted to float) and the text attributes of a single-part scan-line or
+/// tiled file. Throws InputError if it is missing, damaged, larger than 16384 pixels a side, deep,
+/// or has subsampled channels.
+ExrImage ReadExr(const std::filesystem::path& file);
+
+}  // namespace fenestra

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+namespace fenestra {
+
+/// Fresnel reflectance of one air-to-glass surface for unpolarised light.
+/// c: cosine of the angle of incidence in air, in [0, 1]; n ≥ 1: refractive index.
+///
+///     c' = √(1 − (1 − c²)/n²),   F = ½ [((c − n c')/(c + n c'))² + ((n c − c')/(n c + c'))²]
+inline float FresnelReflectance(float c, float n) {
+  const float c_inside = std::sqrt(1.0f - (1.0f - c * c) / (n * n));
+  const float s = (c - n * c_inside) / (c + n * c_inside);
+  const float p = (n * c - c_inside) / (n * c + c_inside);
+  return 0.5f * (s * s + p * p);
+}
+
+/// Reflectance of a pane with all reflections between its two faces, without absorption and
+/// interference: R = F + (1 − F)² F / (1 − F²) = 2F / (1 + F). The pane transmits 1 − R.
+/// Averaging the polarisations before summing the series overstates R at the Brewster angle by
+/// less than 0.01.
+inline float PaneReflectance(float c, float n) {
+  const float F = FresnelReflectance(std::clamp(c, 1e-4f, 1.0f), n);
+  return 2.0f * F / (1.0f + F);
+}
+
+}  // namespace fenestra

@@ -1,0 +1,106 @@
+#include "renderers/lane_kernels.h"
+
+#include <cmath>
+#include <limits>
+
+#include "renderers/net_samples.h"
+#include "renderers/wide.h"
+
+namespace fenestra {
+
+FloatPose ToFloat(const Pose& X_WC) {
+  const auto to_vec3 = [](const auto& v) {
+    return glm::vec3(static_cast<float>(v.x()), static_cast<float>(v.y()),
+                     static_cast<float>(v.z()));
+  };
+  const Eigen::Matrix3d& R = X_WC.rotation();
+  return {.p_WC = to_vec3(X_WC.translation()),
+          .axes = {.right_W = to_vec3(R.col(0)),
+                   .down_W = to_vec3(R.col(1)),
+                   .forward_W = to_vec3(R.col(2))}};
+}
+
+FENESTRA_WIDE Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x,
+                                 const Lanes<float>& y) {
+  Directions d;
+  for (int i = 0; i < kLanes; ++i) {
+    d.x[i] = x[i] * axes.right_W.x + y[i] * axes.down_W.x + axes.forward_W.x;
+    d.y[i] = x[i] * axes.right_W.y + y[i] * axes.down_W.y + axes.forward_W.y;
+    d.z[i] = x[i] * axes.right_W.z + y[i] * axes.down_W.z + axes.forward_W.z;
+  }
+  return d;
+}
+
+FENESTRA_WIDE ImagePoints SamplePatch(const PixelPatch& patch, const uint32_t* net_x,
+                                      const uint32_t* net_y, uint32_t scramble_x,
+                                      uint32_t scramble_y) {
+  ImagePoints points;
+  for (int i = 0; i < kLanes; ++i) {
+    const float s = ToUnit(net_x[i] ^ scramble_x);
+    const float t = ToUnit(net_y[i] ^ scramble_y);
+    points.x[i] = patch.x0 + s * patch.xs + t * (patch.xt + s * patch.xst);
+    points.y[i] = patch.y0 + s * patch.ys + t * (patch.yt + s * patch.yst);
+  }
+  return points;
+}
+
+FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count) {
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  Lanes<uint32_t> side;
+  for (int i = 0; i < kLanes; ++i) {
+    const float facing = hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] +
+                         hit.Ng_z[i] * ray.dir_z[i];
+    const uint32_t triangle =
+        hit.primID[i] == RTC_INVALID_GEOMETRY_ID ? triangle_count : hit.primID[i];
+    side[i] = 2 * triangle + (facing < 0.0f ? 0u : 1u);
+  }
+  return side;
+}
+
+FENESTRA_WIDE LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
+                                     const RayPacket& packet) {
+  LaneLight light;
+  for (int i = 0; i < kLanes; ++i) {
+    const SideRadiance& side = sides[side_hit[i]];
+    light.sky[i] = side.sky + side.sky_u * packet.hit.u[i] + side.sky_v * packet.hit.v[i];
+    light.sun[i] = side.sun;
+  }
+  return light;
+}
+
+FENESTRA_WIDE RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m,
+                                    const glm::vec3& direction_W) {
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  RTCRay16 out;
+  for (int i = 0; i < kLanes; ++i) {
+    const float nx = hit.Ng_x[i];
+    const float ny = hit.Ng_y[i];
+    const float nz = hit.Ng_z[i];
+    const float facing = nx * ray.dir_x[i] + ny * ray.dir_y[i] + nz * ray.dir_z[i];
+    const float unit = offset_m / std::sqrt(nx * nx + ny * ny + nz * nz);
+    const float off = facing < 0.0f ? unit : -unit;
+    out.org_x[i] = ray.org_x[i] + ray.tfar[i] * ray.dir_x[i] + off * nx;
+    out.org_y[i] = ray.org_y[i] + ray.tfar[i] * ray.dir_y[i] + off * ny;
+    out.org_z[i] = ray.org_z[i] + ray.tfar[i] * ray.dir_z[i] + off * nz;
+    out.tnear[i] = 0.0f;
+    out.dir_x[i] = direction_W.x;
+    out.dir_y[i] = direction_W.y;
+    out.dir_z[i] = direction_W.z;
+    out.time[i] = 0.0f;
+    out.tfar[i] = std::numeric_limits<float>::infinity();
+    out.mask[i] = ~0u;
+    out.id[i] = 0u;
+    out.flags[i] = 0u;
+  }
+  return out;
+}
+
+FENESTRA_WIDE Lanes<uint32_t> LookUp(const uint32_t* table, const Lanes<uint32_t>& index) {
+  Lanes<uint32_t> out;
+  for (int i = 0; i < kLanes; ++i) out[i] = table[index[i]];
+  return out;
+}
+
+}  // namespace fenestra

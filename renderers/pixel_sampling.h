@@ -1,0 +1,21 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "core/random_stream.h"
+#include "renderers/light_transport.h"
+#include "renderers/ray_caster.h"
+#include "renderers/ray_grid.h"
+
+namespace fenestra {
+
+/// The mean radiance of each pixel's area: a few samples everywhere, then many in place of them
+/// wherever two different things meet among the samples of a pixel and its eight neighbours.
+///
+/// Sample i of a pixel is Sobol point i, scrambled with a hash of the stream's key and the pixel's
+/// index. So samples of a pixel are stratified along x and along y, and the errors of different
+/// pixels are independent.
+cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
+                    const RenderOptions& options, const RandomStream& sampling);
+
+}  // namespace fenestra

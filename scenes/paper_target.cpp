@@ -1,0 +1,82 @@
+#include "scenes/paper_target.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "scenes/size_checks.h"
+#include "scenes/solid_lattice.h"
+
+namespace fenestra {
+namespace {
+
+constexpr SolidLattice::Solid kWall = 1;
+constexpr SolidLattice::Solid kBorder = 2;
+
+// Nothing stands before the plane, so its sky light is uniform and the largest cells do.
+constexpr double kCell_m = std::numeric_limits<double>::infinity();
+// Only the front of this plate becomes surface.
+constexpr double kPlate_m = 1.0;
+
+void Check(const PaperTargetOptions& o) {
+  SizeChecks checks("paper_target");
+  checks.Positive("width_m", o.width_m);
+  checks.Positive("height_m", o.height_m);
+  checks.Positive("border_m", o.border_m);
+  checks.Positive("wall_width_m", o.wall_width_m);
+  checks.Positive("wall_height_m", o.wall_height_m);
+  checks.Demand(!(2.0 * o.border_m >= std::min(o.width_m, o.height_m)),
+                fmt::format("two borders of {} m do not fit into {} m x {} m", o.border_m,
+                            o.width_m, o.height_m));
+  checks.Demand(!(o.width_m >= o.wall_width_m || o.height_m >= o.wall_height_m),
+                fmt::format("a target of {} m x {} m does not fit on a wall of {} m x {} m",
+                            o.width_m, o.height_m, o.wall_width_m, o.wall_height_m));
+  checks.Reflectance("wall_reflectance", o.wall_reflectance);
+  checks.Reflectance("wall_reflectance_830nm", o.wall_reflectance_830nm);
+  checks.Reflectance("frame_reflectance", o.frame_reflectance);
+  checks.Reflectance("frame_reflectance_830nm", o.frame_reflectance_830nm);
+  checks.ThrowIfFaulty();
+}
+
+// An upright rectangle of the plate, centred on the origin.
+Box Plate(double width_m, double height_m) {
+  return {{-0.5 * width_m, -0.5 * height_m, -kPlate_m}, {0.5 * width_m, 0.5 * height_m, 0.0}};
+}
+
+std::vector<float> Breaks(double wall_m, double target_m, double border_m) {
+  const double inner_m = 0.5 * target_m - border_m;
+  return GradedBreaks({-0.5 * wall_m, -0.5 * target_m, -inner_m, inner_m, 0.5 * target_m,
+                       0.5 * wall_m},
+                      [](double) { return kCell_m; });
+}
+
+Material Paint(const char* name, double reflectance, double reflectance_830nm) {
+  return {.name = name,
+          .reflectance_rgb = glm::vec3(static_cast<float>(reflectance)),
+          .reflectance_830nm = static_cast<float>(reflectance_830nm)};
+}
+
+}  // namespace
+
+Scene MakePaperTarget(const PaperTargetOptions& options) {
+  Check(options);
+  const PaperTargetOptions& o = options;
+  SolidLattice lattice({Breaks(o.wall_width_m, o.width_m, o.border_m),
+                        Breaks(o.wall_height_m, o.height_m, o.border_m),
+                        {static_cast<float>(-kPlate_m), 0.0f}});
+  lattice.Fill(Plate(o.wall_width_m, o.wall_height_m), kWall);
+
+  Scene scene;
+  scene.materials.push_back(Paint("wall", o.wall_reflectance, o.wall_reflectance_830nm));
+  if (o.with_target) {
+    lattice.Fill(Plate(o.width_m, o.height_m), kBorder);
+    lattice.Fill(Plate(o.width_m - 2.0 * o.border_m, o.height_m - 2.0 * o.border_m), kWall);
+    scene.materials.push_back(Paint("border", o.frame_reflectance, o.frame_reflectance_830nm));
+    scene.target = {.X_WO = Pose(), .width_m = o.width_m, .height_m = o.height_m};
+  }
+  constexpr auto kFront = SolidLattice::Faces::kFrontOfLattice;
+  scene.meshes.push_back(lattice.Surface(kWall, kFront, "wall", 0));
+  if (o.with_target) scene.meshes.push_back(lattice.Surface(kBorder, kFront, "border", 1));
+  return scene;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,152 @@
+// The program as a user meets it, in a process of its own.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/temporary_folder.h"
+
+namespace fenestra {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::ReadFile;
+using testing::TemporaryFolder;
+
+struct Outcome {
+  int exit_code;
+  std::string text;  ///< Standard output and standard error.
+};
+
+Outcome Fenestra(const std::string& arguments) {
+  const std::string command = std::string(FENESTRA_PROGRAM) + " " + arguments + " 2>&1 </dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string text;
+  char buffer[4096];
+  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+}
+
+constexpr const char* kStudy =
+    "name: tiny\n"
+    "repetitions: 1\n"
+    "sensors: [rgbd]\n"
+    "factors:\n"
+    "  distance_m: [1.4]\n";
+
+TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
+  for (const char* command : {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd",
+                              "list"}) {
+    const Outcome outcome = Fenestra(std::string(command) + " --help");
+    EXPECT_EQ(outcome.exit_code, 0) << command;
+    EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;
+  }
+}
+
+TEST(CommandLineTest, TheVersionNamesTheLibraries) {
+  EXPECT_THAT(Fenestra("--version").text,
+              AllOf(HasSubstr("fenestra 0."), HasSubstr("Embree 3."), HasSubstr("OpenCV 4."),
+                    HasSubstr("PCL 1.")));
+}
+
+TEST(CommandLineTest, UnknownWordsGetAHint) {
+  EXPECT_THAT(Fenestra("rum paper").text, HasSubstr("Did you mean 'run'?"));
+  EXPECT_THAT(Fenestra("run paper --job 2").text, HasSubstr("Did you mean '--jobs'?"));
+  EXPECT_THAT(Fenestra("run papr").text, HasSubstr("Did you mean 'paper'?"));
+  EXPECT_EQ(Fenestra("rum paper").exit_code, 2);
+  EXPECT_EQ(Fenestra("run paper --job 2").exit_code, 2);
+  EXPECT_EQ(Fenestra("").exit_code, 2);
+  EXPECT_EQ(Fenestra("run paper --jobs many").exit_code, 2);
+}
+
+TEST(CommandLineTest, ListsShowWhatThereIs) {
+  EXPECT_THAT(Fenestra("list detectors").text,
+              AllOf(HasSubstr("paper-stereo"), HasSubstr("paper-rgbd")));
+  EXPECT_THAT(Fenestra("list factors").text, HasSubstr("distance_m"));
+  EXPECT_THAT(Fenestra("list studies").text, HasSubstr("paper"));
+}
+
+class BadStudyTest : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
+
+TEST_P(BadStudyTest, IsRefusedWithItsPlaceAndLeavesNothing) {
+  const auto& [text, message] = GetParam();
+  const TemporaryFolder folder;
+  const auto study = folder.Write("bad.yaml", text);
+  const auto out = folder / "out";
+  const Outcome outcome = Fenestra("run " + study.string() + " --out " + out.string());
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_THAT(outcome.text, HasSubstr(message));
+  EXPECT_THAT(outcome.text, Not(HasSubstr("terminate")));
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EachKind, BadStudyTest,
+    ::testing::Values(
+        std::pair{"name: a\nrepetitons: 3\n", "bad.yaml:2:1: unknown key 'repetitons'"},
+        std::pair{"name: a\nrepetitions: many\n", "bad.yaml:2:14: "},
+        std::pair{"name: a\nfactors: {distance_m: near}\n", "bad.yaml:2:23: "},
+        std::pair{"name: a\nfactors: {window_width_m: -1}\n", "bad.yaml:2:27: "},
+        std::pair{"name: a\nfactors: {distance_m: 1e9}\n", "bad.yaml:2:23: "},
+        std::pair{"name: a\nfactors: {distnace_m: 2}\n", "Did you mean 'distance_m'?"},
+        std::pair{"name: a\nsensors: [lidar]\n", "bad.yaml:2:"},
+        std::pair{"name: a\ndetectors: [paper-sterio]\n", "Did you mean 'paper-stereo'?"},
+        std::pair{"name: a\nfactors: [1, 2\n", "bad.yaml:"}, std::pair{"", "the file is empty"},
+        std::pair{"- 1\n- 2\n", "bad.yaml:1:1: "}));
+
+TEST(CommandLineTest, MissingAndHugeFilesAreRefused) {
+  const TemporaryFolder folder;
+  const std::string out = " --out " + (folder / "out").string();
+  EXPECT_EQ(Fenestra("run " + (folder / "none.yaml").string() + out).exit_code, 2);
+  EXPECT_EQ(Fenestra("run " + folder.path().string() + out).exit_code, 2);
+  const auto zeros = folder.Write("zeros.yaml", std::string(100 << 20, '\0'));
+  const Outcome outcome = Fenestra("run " + zeros.string() + out);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("at most"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(CommandLineTest, RunReplayRenderAndDetectAgree) {
+  const TemporaryFolder folder;
+  const std::string study = folder.Write("tiny.yaml", kStudy).string();
+  const std::string out = (folder / "out").string();
+  const Outcome run = Fenestra("run " + study + " --out " + out + " --jobs 2");
+  ASSERT_EQ(run.exit_code, 0) << run.text;
+  EXPECT_THAT(run.text, HasSubstr("paper-rgbd"));
+  EXPECT_THAT(run.text, Not(HasSubstr("\r")));  // A progress bar is for terminals.
+
+  const Outcome replay = Fenestra("replay " + out + " 0/0");
+  EXPECT_EQ(replay.exit_code, 0);
+  EXPECT_THAT(replay.text, HasSubstr("equal the recorded ones"));
+  EXPECT_EQ(Fenestra("replay " + out + " 0/7").exit_code, 2);
+  EXPECT_EQ(Fenestra("replay " + out + " zero").exit_code, 2);
+
+  const std::string files = (folder / "trial").string();
+  ASSERT_EQ(Fenestra("render " + study + " --out " + files).exit_code, 0);
+  const Outcome detect = Fenestra("detect rgbd --color " + files + "/color.png --depth " + files +
+                                  "/depth.png --calibration " + files + "/calibration.yaml --json");
+  ASSERT_EQ(detect.exit_code, 0) << detect.text;
+  const auto found = nlohmann::json::parse(detect.text);
+  ASSERT_EQ(found["outcome"], "window");
+  const auto truth = nlohmann::json::parse(ReadFile(folder / "trial/truth/truth.json"));
+  EXPECT_NEAR(found["centroid_m"][2].get<double>(),
+              truth["target"]["centroid_m"][2].get<double>(), 0.1);
+}
+
+TEST(CommandLineTest, DetectRefusesWhatItCannotUse) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(Fenestra("detect stereo --left a.png --right b.png --calibration c.yaml").exit_code, 2);
+  EXPECT_EQ(Fenestra("detect rgbd --color a.png").exit_code, 2);
+  EXPECT_EQ(Fenestra("render paper --cell 9999 --out " + (folder / "x").string()).exit_code, 2);
+  EXPECT_TRUE(folder.IsEmpty());
+}
+
+}  // namespace
+}  // namespace fenestra

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/input_error.h"
+#include "scenes/facade.h"
+#include "scenes/paper_target.h"
+
+namespace fenestra {
+namespace {
+
+const Mesh* Find(const Scene& scene, const std::string& name) {
+  const auto found = std::ranges::find(scene.meshes, name, &Mesh::name);
+  return found == scene.meshes.end() ? nullptr : &*found;
+}
+
+// Area of those triangles that lie in the plane z = 0.
+double FrontArea(const Mesh& mesh) {
+  double area = 0.0;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::dvec3 a = mesh.positions_W[t.x];
+    const glm::dvec3 b = mesh.positions_W[t.y];
+    const glm::dvec3 c = mesh.positions_W[t.z];
+    if (a.z == 0.0 && b.z == 0.0 && c.z == 0.0) {
+      area += 0.5 * glm::length(glm::cross(b - a, c - a));
+    }
+  }
+  return area;
+}
+
+// Areas are sums of some thousand products of single-precision coordinates below 10 m.
+constexpr double kAreaTolerance = 1e-5;
+
+TEST(PaperTarget, BorderAndWallDivideThePlaneExactly) {
+  const Scene scene = MakePaperTarget({.width_m = 1.3, .height_m = 0.9, .border_m = 0.07});
+  EXPECT_NO_THROW(Validate(scene));
+  const double border = 1.3 * 0.9 - (1.3 - 0.14) * (0.9 - 0.14);
+  EXPECT_NEAR(FrontArea(*Find(scene, "border")), border, kAreaTolerance);
+  EXPECT_NEAR(FrontArea(*Find(scene, "wall")), 12.0 * 8.0 - border, kAreaTolerance);
+  ASSERT_TRUE(scene.target);
+  EXPECT_EQ(scene.target->Centroid_W(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(scene.target->width_m, 1.3);
+}
+
+TEST(PaperTarget, WithoutTargetIsABareWall) {
+  const Scene scene = MakePaperTarget({.with_target = false});
+  EXPECT_FALSE(scene.target);
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_NEAR(FrontArea(scene.meshes[0]), 96.0, kAreaTolerance);
+}
+
+TEST(PaperTarget, AllFaultsAreReportedAtOnce) {
+  try {
+    MakePaperTarget({.width_m = 13.0, .border_m = -0.1, .wall_reflectance = 1.2,
+                     .frame_reflectance = std::numeric_limits<double>::quiet_NaN()});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 4u) << error.what();
+  }
+}
+
+TEST(Facade, WallHasATrueOpening) {
+  const Scene scene = MakeFacade({.frame_setback_m = 0.1});
+  EXPECT_NO_THROW(Validate(scene));
+  EXPECT_NEAR(FrontArea(*Find(scene, "wall")), 12.0 * 8.0 - 1.0, kAreaTolerance);
+  EXPECT_EQ(FrontArea(*Find(scene, "frame")), 0.0);  // It stands 0.1 m behind.
+}
+
+TEST(Facade, AFlushFrameFillsTheOpeningsEdge) {
+  const Scene scene = MakeFacade({});
+  EXPECT_NEAR(FrontArea(*Find(scene, "frame")), 1.0 - 0.8 * 0.8, kAreaTolerance);
+}
+
+TEST(Facade, TheTargetIsTheFramesFrontOuterRectangle) {
+  const Scene scene = MakeFacade({.width_m = 1.2, .frame_setback_m = 0.15});
+  ASSERT_TRUE(scene.target);
+  EXPECT_EQ(scene.target->Centroid_W(), Eigen::Vector3d(0.0, 0.0, -0.15));
+  const Mesh& frame = *Find(scene, "frame");
+  const auto [back, front] = std::ranges::minmax(
+      frame.positions_W, {}, [](const glm::vec3& p) { return p.z; });
+  EXPECT_EQ(front.z, -0.15f);
+  EXPECT_EQ(back.z, -0.21f);  // A frame is 0.06 m deep.
+  const auto right = std::ranges::max(frame.positions_W, {}, [](const glm::vec3& p) { return p.x; });
+  EXPECT_EQ(right.x, 0.6f);
+}
+
+TEST(Facade, GlassAndTargetCanBeLeftOut) {
+  EXPECT_NE(Find(MakeFacade({}), "pane"), nullptr);
+  EXPECT_EQ(Find(MakeFacade({.glass = false}), "pane"), nullptr);
+  const Scene bare = MakeFacade({.with_target = false});
+  EXPECT_FALSE(bare.target);
+  EXPECT_EQ(bare.meshes.size(), 1u);
+  EXPECT_NEAR(FrontArea(bare.meshes[0]), 96.0, kAreaTolerance);
+}
+
+TEST(Facade, AllFaultsAreReportedAtOnce) {
+  try {
+    MakeFacade({.frame_width_m = 0.5, .frame_setback_m = 0.25, .wall_width_m = 1.0,
+                .room_reflectance = -0.1});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 4u) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace fenestra

@@ -1,0 +1,151 @@
+#include "vision/rgbd/depth_registration.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/input_error.h"
+
+namespace fenestra {
+namespace {
+
+CameraModel WithoutDistortion(const CameraModel& camera) {
+  CameraParameters parameters = camera.parameters();
+  parameters.distortion = {};
+  return CameraModel(parameters);
+}
+
+// A pixel outside the image where the lens sees nothing, so that it becomes black there.
+constexpr float kOutside = -1e4f;
+
+cv::Mat2f UndistortionMap(const CameraModel& camera) {
+  const CameraModel pinhole = WithoutDistortion(camera);
+  cv::Mat2f map(camera.height_px(), camera.width_px(), cv::Vec2f(kOutside, kOutside));
+  for (int v = 0; v < map.rows; ++v) {
+    for (int u = 0; u < map.cols; ++u) {
+      const auto ray = pinhole.UnprojectRay({u, v});
+      const auto pixel = ray ? camera.Project(*ray) : std::nullopt;
+      if (pixel) map(v, u) = {static_cast<float>(pixel->x()), static_cast<float>(pixel->y())};
+    }
+  }
+  return map;
+}
+
+std::vector<std::optional<Eigen::Vector3d>> RotatedRays(const RgbdCalibration& calibration) {
+  const CameraModel& camera = calibration.depth;
+  std::vector<std::optional<Eigen::Vector3d>> rays_K;
+  for (int v = 0; v < camera.height_px(); ++v) {
+    for (int u = 0; u < camera.width_px(); ++u) {
+      const auto ray_D = camera.UnprojectRay({u, v});
+      rays_K.push_back(std::nullopt);
+      if (ray_D) rays_K.back() = calibration.X_KD.rotation() * *ray_D;
+    }
+  }
+  return rays_K;
+}
+
+std::string SizeText(const cv::Size& size) {
+  return fmt::format("{} x {} px", size.width, size.height);
+}
+
+cv::Size SizeOf(const CameraModel& camera) {
+  return {camera.width_px(), camera.height_px()};
+}
+
+}  // namespace
+
+CameraModel WorkingCamera(const RgbdCalibration& calibration) {
+  CameraParameters p = calibration.color.parameters();
+  const CameraParameters& d = calibration.depth.parameters();
+  const double s = std::min(
+      {1.0, static_cast<double>(d.width_px) / p.width_px, d.fx_px / p.fx_px, d.fy_px / p.fy_px});
+  const int width_px = std::max(1, static_cast<int>(std::lround(s * p.width_px)));
+  const int height_px = std::max(1, static_cast<int>(std::lround(s * p.height_px)));
+  // The scales that were achieved with whole pixels; both are s for sizes that divide.
+  const double sx = static_cast<double>(width_px) / p.width_px;
+  const double sy = static_cast<double>(height_px) / p.height_px;
+  return CameraModel({.width_px = width_px,
+                      .height_px = height_px,
+                      .fx_px = sx * p.fx_px,
+                      .fy_px = sy * p.fy_px,
+                      .cx_px = sx * (p.cx_px + 0.5) - 0.5,
+                      .cy_px = sy * (p.cy_px + 0.5) - 0.5,
+                      .distortion = {}});
+}
+
+DepthRegistration::DepthRegistration(const RgbdCalibration& calibration)
+    : calibration_(calibration),
+      working_(WorkingCamera(calibration)),
+      depth_is_registered_(calibration.depth == working_ && calibration.X_KD == Pose()) {
+  if (!depth_is_registered_) rays_K_ = RotatedRays(calibration);
+  if (calibration.color.has_distortion()) undistortion_ = UndistortionMap(calibration.color);
+}
+
+RegisteredImages DepthRegistration::Register(const RgbdObservation& observation) const {
+  CheckFits(observation);
+  return {ResampleColor(observation.color), CarryDepth(observation.depth)};
+}
+
+void DepthRegistration::CheckFits(const RgbdObservation& observation) const {
+  std::vector<InputFault> faults;
+  const auto demand_size = [&faults](const char* name, const cv::Size& found,
+                                     const cv::Size& want) {
+    if (found == want) return;
+    faults.push_back(
+        {name, 0, 0,
+         fmt::format("the image has {}, its calibration {}", SizeText(found), SizeText(want))});
+  };
+  demand_size("color", observation.color.size(), SizeOf(calibration_.color));
+  demand_size("depth", observation.depth.raw.size(), SizeOf(calibration_.depth));
+  if (observation.depth.unit_m != calibration_.depth_unit_m) {
+    faults.push_back({"depth", 0, 0,
+                      fmt::format("the image has a unit of {} m, its calibration {} m",
+                                  observation.depth.unit_m, calibration_.depth_unit_m)});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+cv::Mat3b DepthRegistration::ResampleColor(const cv::Mat3b& color) const {
+  cv::Mat3b resampled = color;
+  if (!undistortion_.empty()) {
+    cv::Mat3b undistorted;
+    cv::remap(color, undistorted, undistortion_, cv::noArray(), cv::INTER_LINEAR,
+              cv::BORDER_CONSTANT);
+    resampled = undistorted;
+  }
+  if (resampled.size() == SizeOf(working_)) return resampled;
+  cv::Mat3b averaged;
+  cv::resize(resampled, averaged, SizeOf(working_), 0.0, 0.0, cv::INTER_AREA);
+  return averaged;
+}
+
+cv::Mat1f DepthRegistration::CarryDepth(const DepthImage& depth) const {
+  cv::Mat1f depth_m = cv::Mat1f::zeros(SizeOf(working_));
+  if (depth_is_registered_) {
+    depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
+    return depth_m;
+  }
+  const CameraParameters& camera = working_.parameters();
+  const Eigen::Vector3d p_KD = calibration_.X_KD.translation();
+  for (int v = 0; v < depth.raw.rows; ++v) {
+    for (int u = 0; u < depth.raw.cols; ++u) {
+      const double z_D = depth.raw(v, u) * depth.unit_m;
+      const auto& ray_K = rays_K_[static_cast<size_t>(v * depth.raw.cols + u)];
+      if (z_D == 0.0 || !ray_K) continue;
+      const Eigen::Vector3d p_KQ = z_D * *ray_K + p_KD;
+      const auto pixel = working_.Project(p_KQ);
+      if (!pixel || !working_.Contains(*pixel)) continue;
+      // A pixel exactly on the far border would round to one beyond the image.
+      const int x = std::min(static_cast<int>(std::lround(pixel->x())), camera.width_px - 1);
+      const int y = std::min(static_cast<int>(std::lround(pixel->y())), camera.height_px - 1);
+      float& nearest_m = depth_m(std::max(y, 0), std::max(x, 0));
+      const float z_m = static_cast<float>(p_KQ.z());
+      if (nearest_m == 0.0f || z_m < nearest_m) nearest_m = z_m;
+    }
+  }
+  return depth_m;
+}
+
+}  // namespace fenestra

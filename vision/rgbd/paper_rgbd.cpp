@@ -1,0 +1,166 @@
+#include "vision/rgbd/paper_rgbd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input_error.h"
+#include "vision/rgbd/cloud_shape.h"
+#include "vision/rgbd/dark_cloud.h"
+#include "vision/rgbd/diagonals.h"
+#include "vision/rgbd/frame_vertices.h"
+#include "vision/rgbd/narf_key_points.h"
+#include "vision/rgbd/pictures.h"
+#include "vision/rgbd/vertices.h"
+
+namespace fenestra {
+namespace {
+
+// The sampling of planes is part of the detector: the same for every observation.
+constexpr uint64_t kPlaneSeed = 1;
+
+RgbdCalibration Checked(const RgbdCalibration& calibration) {
+  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
+    throw InputError("depth_unit_m",
+                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
+  }
+  const CameraModel working = WorkingCamera(calibration);
+  if (!NarfRangeImage::Supports(working)) {
+    throw InputError(
+        "color", fmt::format("a horizontal field of {:.1f} deg; NARF's planar range "
+                             "image needs less than 90 deg",
+                             2.0 * 180.0 / M_PI *
+                                 std::atan(0.5 * working.width_px() / working.parameters().fx_px)));
+  }
+  return calibration;
+}
+
+FourVertices VerticesOf(const std::vector<KeyPoint>& key_points, const std::array<int, 4>& chosen) {
+  FourVertices p_KV;
+  for (size_t i = 0; i < 4; ++i) p_KV[i] = key_points[static_cast<size_t>(chosen[i])].p_KQ;
+  return p_KV;
+}
+
+std::vector<Eigen::Vector3f> CloudInDepthFrame(const DarkCloud& cloud, const Pose& X_DK) {
+  std::vector<Eigen::Vector3f> points_D;
+  for (const Eigen::Vector3d& p_KQ : cloud.points_K) {
+    points_D.push_back((X_DK * p_KQ).cast<float>());
+  }
+  return points_D;
+}
+
+std::optional<Miss> CloudFault(const DarkCloud& cloud, const PaperRgbdOptions& options) {
+  if (cloud.dark_pixels == 0) {
+    return Miss{"no_dark_pixels",
+                fmt::format("no pixel is below {} in all channels", options.dark_below_dn)};
+  }
+  const std::string counts = fmt::format("{} dark pixels, {} of them with depth", cloud.dark_pixels,
+                                         cloud.points_K.size());
+  if (cloud.points_K.empty()) return Miss{"no_depth_on_dark_pixels", counts};
+  if (static_cast<int>(cloud.points_K.size()) < options.min_cloud_points) {
+    return Miss{"cloud_too_small",
+                fmt::format("{}; {} are needed", counts, options.min_cloud_points)};
+  }
+  return std::nullopt;
+}
+
+// Of the pixels of the depth image that make the range image.
+int Stride(const CameraModel& camera, const PaperRgbdOptions& options) {
+  return (camera.width_px() + options.max_range_image_width_px - 1) /
+         options.max_range_image_width_px;
+}
+
+double SupportSize(const CloudShape& shape, double px_per_m, const PaperRgbdOptions& options) {
+  if (options.support_size_m > 0.0) return options.support_size_m;
+  return std::min(options.support_fraction * std::sqrt(shape.hull_area_m2),
+                  options.max_support_px / px_per_m);
+}
+
+// Ends the running stage however Detect is left.
+class StageEnd {
+ public:
+  explicit StageEnd(StageLog& log) : log_(log) {}
+  ~StageEnd() { log_.End(); }
+  StageEnd(const StageEnd&) = delete;
+  StageEnd& operator=(const StageEnd&) = delete;
+
+ private:
+  StageLog& log_;
+};
+
+}  // namespace
+
+PaperRgbdDetector::PaperRgbdDetector(const RgbdCalibration& calibration,
+                                     const PaperRgbdOptions& options)
+    : calibration_(Checked(calibration)), options_(options), registration_(calibration) {
+  Validate(options_);
+}
+
+Detection PaperRgbdDetector::Detect(const Observation& observation, StageLog& log) const {
+  const auto* images = std::get_if<RgbdObservation>(&observation);
+  if (images == nullptr) {
+    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
+  }
+  const PictureView view{registration_.working_camera(), calibration_.X_KD};
+  const StageEnd stage_end(log);
+  log.Begin("register");
+  const RegisteredImages registered = registration_.Register(*images);
+  log.Picture("registered_depth", [&] { return DrawDepth(registered.depth_m); }, {view});
+
+  log.Begin("segment");
+  const DarkCloud cloud = Segment(registered);
+  log.Picture("segmentation", [&] { return DrawSegmentation(registered, cloud); }, {view});
+  log.Cloud("cloud", [&] { return CloudInDepthFrame(cloud, calibration_.X_KD.inverse()); });
+  if (const auto fault = CloudFault(cloud, options_)) return *fault;
+  return FindFrame(cloud, log);
+}
+
+DarkCloud PaperRgbdDetector::Segment(const RegisteredImages& registered) const {
+  const CameraModel& camera = registration_.working_camera();
+  const DarkCloud cloud = SegmentDark(registered, camera, options_.dark_below_dn);
+  return options_.cloud == "all" ? cloud : LargestComponent(cloud, camera);
+}
+
+Detection PaperRgbdDetector::FindFrame(const DarkCloud& cloud, StageLog& log) const {
+  log.Begin("range_image");
+  const PlaneTolerance tolerance{.fixed_m = options_.plane_tolerance_m,
+                                 .per_z2 = options_.plane_tolerance_per_m};
+  const auto shape = ShapeOf(cloud.points_K, tolerance, RandomStream(kPlaneSeed));
+  if (!shape) return Miss{"no_plane", "the dark points do not span a plane"};
+  const CameraModel& camera = registration_.working_camera();
+  const int stride = Stride(camera, options_);
+  const NarfRangeImage range_image(cloud.depth_m, camera, stride, options_.unseen_is_far);
+
+  log.Begin("narf");
+  const double px_per_m = camera.parameters().fx_px / (stride * shape->median_depth_m);
+  const std::vector<KeyPoint> key_points =
+      range_image.DetectKeyPoints({.support_size_m = SupportSize(*shape, px_per_m, options_),
+                                   .min_interest_value = options_.min_interest_value});
+
+  log.Begin("vertices");
+  const FrameVertices vertices = ChooseFrameVertices(
+      key_points, *shape, tolerance,
+      {.min_area_fraction = options_.min_area_fraction, .min_side_ratio = options_.min_side_ratio});
+  log.Picture("range_image",
+              [&] { return DrawKeyPoints(cloud.depth_m, key_points, vertices.chosen); },
+              {{camera.Scaled(kKeyPointPictureScale), calibration_.X_KD}});
+  if (vertices.miss) return *vertices.miss;
+
+  log.Begin("centroid");
+  return Estimate(VerticesOf(key_points, *vertices.chosen), shape->plane);
+}
+
+Detection PaperRgbdDetector::Estimate(const FourVertices& p_KV, const Plane& plane) const {
+  const auto crossing = CrossDiagonals(p_KV);
+  if (!crossing) return Miss{"not_a_quadrilateral", "the diagonals do not cross"};
+  const Pose X_DK = calibration_.X_KD.inverse();
+  FourVertices p_DV;
+  for (size_t i = 0; i < 4; ++i) p_DV[i] = X_DK * p_KV[i];
+  return WindowEstimate{.p_CO = X_DK * crossing->p_CO,
+                        .p_CV = OrderedAsSeen(p_DV),
+                        .normal_C = X_DK.rotation() * plane.normal_K,
+                        .covariance_C = std::nullopt};
+}
+
+}  // namespace fenestra

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "core/calibration.h"
+#include "core/detector.h"
+#include "vision/rgbd/dark_cloud.h"
+#include "vision/rgbd/depth_registration.h"
+#include "vision/rgbd/diagonals.h"
+#include "vision/rgbd/dominant_plane.h"
+#include "vision/rgbd/paper_rgbd_options.h"
+
+namespace fenestra {
+
+/// The RGB-D pipeline of S. Zhou, G. Flores, R. Lozano, P. Castillo, "Vision-based window
+/// estimation for MAV in unknown urban environments", IFAC RED-UAS 2013, section 4. Stages:
+///
+///     register     depth to the colour camera's viewpoint (open in the paper)
+///     segment      Algorithm 1: dark pixels with depth become a cloud
+///     range_image  Algorithm 2: the cloud's range image; its plane and size
+///     narf         Algorithm 2: NARF key points
+///     vertices     four of them: the largest quadrilateral on the cloud's plane (open in the
+///     paper) centroid     intersection of the diagonals
+///
+/// The vertices are the key points themselves. NARF places those on stable surface *inside* of the
+/// frame's corners, so p_CV lies some per cent of the side inside of the true outline, on either
+/// side alike, which leaves the centroid free of it to first order. The normal is that of the
+/// plane.
+///
+/// Misses: no_dark_pixels, no_depth_on_dark_pixels, cloud_too_small, no_plane, too_few_key_points,
+/// not_a_quadrilateral, implausible_shape.
+class PaperRgbdDetector : public Detector {
+ public:
+  /// Throws InputError for options out of range, a depth unit that is not positive, or a colour
+  /// camera with a horizontal field of 90° or more, which PCL's planar range image cannot hold.
+  PaperRgbdDetector(const RgbdCalibration& calibration, const PaperRgbdOptions& options);
+
+  SensorKind sensor() const override { return SensorKind::kRgbd; }
+  Detection Detect(const Observation& observation, StageLog& log) const override;
+
+ private:
+  DarkCloud Segment(const RegisteredImages& registered) const;
+  Detection FindFrame(const DarkCloud& cloud, StageLog& log) const;
+  Detection Estimate(const FourVertices& p_KV, const Plane& plane) const;
+
+  RgbdCalibration calibration_;
+  PaperRgbdOptions options_;
+  DepthRegistration registration_;
+};
+
+}  // namespace fenestra

@@ -1,0 +1,73 @@
+#include "vision/rgbd/paper_rgbd_options.h"
+
+#include "core/input_error.h"
+
+namespace fenestra {
+namespace {
+
+using Options = PaperRgbdOptions;
+using Table = ParameterTable<Options>;
+
+Table MakeTable() {
+  Table table;
+  table
+      .Integer(
+          "dark_below_dn", [](Options& o) -> int& { return o.dark_below_dn; }, {1, 256},
+          "a pixel is dark if R, G and B are all below this (Algorithm 1: 50)")
+      .Choice(
+          "cloud", [](Options& o) -> std::string& { return o.cloud; }, {"all", "largest_component"},
+          "which dark pixels make the cloud; the paper takes all")
+      .Integer(
+          "min_cloud_points", [](Options& o) -> int& { return o.min_cloud_points; }, {3, 1e9},
+          "smallest cloud that is searched")
+      .Switch(
+          "unseen_is_far", [](Options& o) -> bool& { return o.unseen_is_far; },
+          "take unseen pixels of the range image for free sight to infinity")
+      .Number(
+          "support_fraction", [](Options& o) -> double& { return o.support_fraction; }, {0.01, 2.0},
+          "NARF support size over the size of the cloud")
+      .Number(
+          "support_size_m", [](Options& o) -> double& { return o.support_size_m; }, {0.0, 5.0},
+          "NARF support size; 0 takes it from support_fraction")
+      .Number(
+          "max_support_px", [](Options& o) -> double& { return o.max_support_px; }, {3.0, 1e4},
+          "upper limit of support_fraction's support size in pixels of the range image")
+      .Integer(
+          "max_range_image_width_px", [](Options& o) -> int& { return o.max_range_image_width_px; },
+          {16, 16384}, "widest range image; finer depth images are thinned out")
+      .Number(
+          "min_interest_value", [](Options& o) -> double& { return o.min_interest_value; },
+          {0.0, 1.0}, "smallest NARF interest of a key point")
+      .Number(
+          "plane_tolerance_m", [](Options& o) -> double& { return o.plane_tolerance_m; },
+          {0.0, 1.0}, "distance from the frame's plane, fixed part")
+      .Number(
+          "plane_tolerance_per_m", [](Options& o) -> double& { return o.plane_tolerance_per_m; },
+          {0.0, 1.0}, "distance from the frame's plane, part per square of the depth (m/m²)")
+      .Number(
+          "min_area_fraction", [](Options& o) -> double& { return o.min_area_fraction; },
+          {0.0, 1.0}, "smallest area of the four points over that of the cloud's hull")
+      .Number(
+          "min_side_ratio", [](Options& o) -> double& { return o.min_side_ratio; }, {0.0, 1.0},
+          "smallest ratio of the shortest to the longest side");
+  return table;
+}
+
+}  // namespace
+
+const Table& PaperRgbdParameters() {
+  static const Table table = MakeTable();
+  return table;
+}
+
+void Validate(const PaperRgbdOptions& options) {
+  std::vector<InputFault> faults;
+  const Table& table = PaperRgbdParameters();
+  for (const ParameterInfo& info : table.infos()) {
+    const auto objection = info.Objection(table.Get(options, info.name));
+    if (objection) faults.push_back({"paper-rgbd", 0, 0, *objection});
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace fenestra

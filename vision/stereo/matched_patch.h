@@ -1,0 +1,31 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/stereo/disparity_plane.h"
+
+namespace fenestra {
+
+/// A connected region of matched pixels.
+struct MatchedPatch {
+  cv::Rect box;
+  int area_px = 0;
+  std::vector<cv::Point> hull;           ///< Convex.
+  std::vector<DisparitySample> samples;  ///< An even subset of its matched pixels.
+};
+
+struct PatchSettings {
+  int opening_px;     ///< Side of the square that must fit into a patch everywhere.
+  int gap_height_px;  ///< Gaps between patches of the same columns are bridged up to this height.
+  int gap_width_px;   ///< Likewise for patches of the same rows.
+  int min_height_px;  ///< Patches that are less tall are dropped.
+};
+
+/// The largest connected patches of the matched pixels (disparity > 0), largest first: the
+/// morphological opening and closing of FindConnectedComponents in Bradski and Kaehler 2008, ch. 9.
+/// A departure: the closing is taller than wide, since vertical edges are what block matching
+/// matches, and what has to be joined again are the pieces of one edge.
+std::vector<MatchedPatch> FindPatches(const cv::Mat1f& disparity, const PatchSettings& settings);
+
+}  // namespace fenestra

@@ -1,0 +1,150 @@
+#include "vision/stereo/paper_stereo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/input_error.h"
+#include "vision/stereo/closed_contour.h"
+#include "vision/stereo/depth_image.h"
+#include "vision/stereo/guided_matching.h"
+#include "vision/stereo/stage_pictures.h"
+#include "vision/stereo/window_rectangle.h"
+
+namespace fenestra {
+namespace {
+
+const PaperStereoOptions& Validated(const PaperStereoOptions& options) {
+  Validate(options);
+  return options;
+}
+
+BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
+                                       const RectifiedCamera& camera, int width_px) {
+  // A disparity of the image's width or more has nothing to match.
+  const auto limited = [width_px](double d) { return std::clamp(d, 0.0, width_px - 1.0); };
+  return {.window_px = options.sad_window_px,
+          .nearest_disparity_px =
+              static_cast<int>(limited(std::ceil(camera.DisparityFromDepth(options.nearest_m)))),
+          .farthest_disparity_px =
+              static_cast<int>(limited(std::floor(camera.DisparityFromDepth(options.farthest_m)))),
+          .uniqueness_percent = options.uniqueness_percent,
+          .texture_threshold = options.texture_threshold,
+          .speckle_area_px = options.speckle_area_px,
+          .speckle_step_px = options.speckle_step_px,
+          .left_right_check = options.left_right_check};
+}
+
+FrameCriteria Criteria(const PaperStereoOptions& options) {
+  return {.window_px = options.sad_window_px,
+          .plane_tolerance_px = options.plane_tolerance_px,
+          .min_inlier_share = options.min_inlier_share,
+          .min_row_overlap = options.min_row_overlap,
+          .min_side_support = options.min_side_support,
+          .max_opening_rows = options.max_opening_rows,
+          .nearest_m = options.nearest_m,
+          .farthest_m = options.farthest_m,
+          .min_side_m = options.min_side_m,
+          .max_side_m = options.max_side_m,
+          .max_side_ratio = options.max_side_ratio,
+          .max_skew_rad = options.max_skew_rad,
+          .max_taper = options.max_taper};
+}
+
+const StereoObservation& StereoPart(const Observation& observation) {
+  const auto* stereo = std::get_if<StereoObservation>(&observation);
+  if (stereo == nullptr) {
+    throw InputError("observation", "is of an RGB-D sensor; this detector needs a stereo pair");
+  }
+  return *stereo;
+}
+
+}  // namespace
+
+PaperStereoDetector::PaperStereoDetector(const StereoCalibration& calibration,
+                                         const PaperStereoOptions& options)
+    : options_(Validated(options)),
+      rectification_(calibration, options.rectification_alpha),
+      matching_(MatchingSettings(options, rectification_.camera(), calibration.left.width_px())),
+      patches_{.opening_px = options.opening_px,
+               .gap_height_px = options.gap_height_px,
+               .gap_width_px = options.gap_width_px,
+               .min_height_px = options.min_band_height_px},
+      criteria_(Criteria(options)),
+      range_{options.nearest_m, options.farthest_m} {}
+
+Detection PaperStereoDetector::Detect(const Observation& observation, StageLog& log) const {
+  log.Begin("rectify");
+  const RectifiedPair pair = rectification_.Rectify(StereoPart(observation));
+  log.Picture("rectified", [&] { return DrawRectifiedPair(pair); });
+
+  log.Begin("match");
+  const cv::Mat1f disparity = Match(pair);
+
+  log.Begin("depth_image");
+  const cv::Mat1f depth_m = DepthFromDisparity(disparity, rectification_.camera());
+  log.Picture("depth_image", [&] { return DrawDepth(depth_m, range_); });
+
+  log.Begin("close_gaps");
+  Detection detection = FindWindow(disparity, log);
+  log.End();
+  return detection;
+}
+
+Detection PaperStereoDetector::FindWindow(const cv::Mat1f& disparity, StageLog& log) const {
+  const std::vector<MatchedPatch> patches = FindPatches(disparity, patches_);
+  if (patches.empty()) {
+    return Miss{"no_matches", fmt::format("no matched patch is {} px tall; {} pixels are matched",
+                                          patches_.min_height_px, cv::countNonZero(disparity))};
+  }
+  const auto found = FindFrame(patches, disparity, rectification_.camera(), criteria_);
+  if (const Miss* miss = std::get_if<Miss>(&found)) return *miss;
+  const FrameHypothesis& frame = std::get<FrameHypothesis>(found);
+  const cv::Mat1f closed_m =
+      CloseGaps(disparity, frame.hull, frame.plane, options_.plane_tolerance_px,
+                options_.sad_window_px, rectification_.camera());
+  log.Picture("closed_contour", [&] { return DrawDepth(closed_m, range_); });
+
+  log.Begin("edges");
+  const cv::Mat1b edges =
+      DetectEdges(ToEightBit(closed_m, range_), {options_.canny_low_dn, options_.canny_high_dn});
+  log.Picture("edges", [&] { return cv::Mat(edges); });
+
+  log.Begin("contour");
+  const auto contour = LargestClosedContour(edges);
+  if (!contour) return Miss{"no_contour", "no edge of the depth image is a closed curve"};
+  const auto corners_px = FindCorners(*contour);
+  if (!corners_px) {
+    return Miss{"not_a_quadrilateral",
+                fmt::format("a closed contour of {} px has no four sides", contour->size())};
+  }
+
+  log.Begin("centroid");
+  const auto estimate_F = WindowOnPlane(*corners_px, frame.plane, rectification_.camera());
+  if (!estimate_F) return Miss{"implausible_shape", "the frame's plane meets the horizon"};
+  if (auto objection = ObjectionToShape(*estimate_F, criteria_)) return *objection;
+  return Rotated(rectification_.R_LF(), *estimate_F);
+}
+
+cv::Mat1f PaperStereoDetector::Match(const RectifiedPair& pair) const {
+  const cv::Mat1b& left_seen = rectification_.left_seen();
+  const cv::Mat1b& right_seen = rectification_.right_seen();
+  const cv::Mat1f disparity = MatchBlocks(pair, left_seen, right_seen, matching_);
+  if (!options_.guided_search) return disparity;
+  return MatchAgainNearPatches(pair, left_seen, right_seen, matching_, disparity,
+                               FindPatches(disparity, patches_),
+                               options_.min_side_m / rectification_.camera().baseline_m);
+}
+
+std::optional<Quadrilateral> PaperStereoDetector::FindCorners(
+    const std::vector<cv::Point>& contour) const {
+  auto corners_px = FitQuadrilateral(contour);
+  if (!corners_px) return std::nullopt;
+  for (Eigen::Vector2d& corner : *corners_px) corner.array() += 0.5;  // See closed_contour.h.
+  if (!options_.undo_fattening) return corners_px;
+  return Inset(*corners_px, options_.sad_window_px / 2);
+}
+
+}  // namespace fenestra

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "core/parameter_table.h"
+
+namespace fenestra {
+
+/// What the paper leaves open in its stereo method, each with the reason for its default.
+struct PaperStereoOptions {
+  // Rectification.
+  /// 1 keeps all that the sensors saw, at the price of a slightly smaller image for a lens with
+  /// barrel distortion; 0 would cut off near windows.
+  double rectification_alpha = 1.0;
+
+  // Block matching ("small SAD windows").
+  /// A little nearer than the distance at which a 1 m window fills the image of a 4 mm lens.
+  double nearest_m = 1.2;
+  /// Where a 1 m frame is 44 px wide and a tenth of a pixel of disparity is 10 cm of depth.
+  double farthest_m = 15.0;
+  /// The middle of the 5 to 21 px that Bradski and Kaehler name.
+  int sad_window_px = 15;
+  /// With 0 about a fifth of the matches on a plain wall are wrong by more than a pixel; with 10 or
+  /// more few are. cv::StereoBM's customary value is 15, which costs a quarter of the true matches.
+  int uniqueness_percent = 10;
+  /// cv::StereoBM's default; it stops matches where the images are perfectly constant.
+  int texture_threshold = 10;
+  /// An accidental match of one feature is at most as large as the SAD window.
+  int speckle_area_px = 200;
+  double speckle_step_px = 1.0;
+  /// Off: the uniqueness test finds nearly the same faults, and this costs a tenth more time.
+  bool left_right_check = false;
+  /// Search again near what was found, see guided_matching.h. Without it a frame's right side is
+  /// lost where its double is in range: 1 m frames beyond 4.6 m.
+  bool guided_search = true;
+
+  // Gap closing.
+  /// All that is matched is as wide as the SAD window or wider, since every pixel whose window
+  /// touches an edge is matched. Half of it takes stragglers off the contour and nothing else.
+  int opening_px = 7;
+  /// Joins the pieces of a vertical edge; less than the opening of a 1 m frame at 10 m (39 px
+  /// between fattened horizontal sides).
+  int gap_height_px = 25;
+  /// Joins the two edges of one narrow border, but not the two sides of a far frame.
+  int gap_width_px = 5;
+  /// 1 m at 33 m: more than twice the farthest depth.
+  int min_band_height_px = 20;
+  /// Twice the error of a sound match (about 0.3 px where an edge is blurred and slanted).
+  double plane_tolerance_px = 0.75;
+  double min_inlier_share = 0.6;
+  /// A side that is cut at one end by something in front of it still passes.
+  double min_row_overlap = 0.7;
+  /// Half: more than chance makes of two blobs, and less than noise leaves of a far frame's side.
+  double min_side_support = 0.5;
+  double max_opening_rows = 0.5;
+
+  // Plausible windows: what a drone might fly through, and no prior of the window's size.
+  double min_side_m = 0.3;
+  double max_side_m = 3.0;
+  double max_side_ratio = 2.0;
+  /// 15°: corners are known to some pixels only, which is 5° for a far frame.
+  double max_skew_rad = 0.2617993877991494;
+  double max_taper = 0.25;
+
+  // Contour.
+  /// In the 8-bit depth image a frame stands at least 64 grey values, four times that in a Sobel
+  /// filter's output, above nothing.
+  double canny_low_dn = 60.0;
+  double canny_high_dn = 120.0;
+  /// A pixel is matched as soon as its SAD window touches an edge, so the matched region is the
+  /// frame dilated by half a window; this takes it back. The paper does not; corners are then too
+  /// far out by that much, the centroid is the same.
+  bool undo_fattening = true;
+
+  bool operator==(const PaperStereoOptions&) const = default;
+};
+
+/// Throws InputError with all faults: values out of their parameter's range, an even SAD window,
+/// limits in the wrong order.
+void Validate(const PaperStereoOptions& options);
+
+const ParameterTable<PaperStereoOptions>& PaperStereoParameters();
+
+}  // namespace fenestra

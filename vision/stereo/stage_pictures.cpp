@@ -1,0 +1,38 @@
+#include "vision/stereo/stage_pictures.h"
+
+#include <opencv2/imgproc.hpp>
+
+namespace fenestra {
+namespace {
+
+constexpr int kLines = 8;
+
+}  // namespace
+
+cv::Mat3b DrawRectifiedPair(const RectifiedPair& pair) {
+  cv::Mat1b both;
+  cv::hconcat(pair.left, pair.right, both);
+  cv::Mat3b picture;
+  cv::cvtColor(both, picture, cv::COLOR_GRAY2BGR);
+  for (int i = 1; i < kLines; ++i) {
+    const int v = i * picture.rows / kLines;
+    cv::line(picture, {0, v}, {picture.cols - 1, v}, {80, 200, 80});
+  }
+  return picture;
+}
+
+cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range) {
+  // Equal steps of 1/z, as they are equal steps of disparity.
+  cv::Mat1f inverse;
+  cv::divide(1.0, depth_m, inverse);
+  const double far = 1.0 / range.farthest_m;
+  const double scale = 255.0 / (1.0 / range.nearest_m - far);
+  cv::Mat1b gray;
+  inverse.convertTo(gray, CV_8U, scale, -scale * far);
+  cv::Mat3b picture;
+  cv::applyColorMap(gray, picture, cv::COLORMAP_TURBO);
+  picture.setTo(cv::Scalar::all(0), depth_m <= 0.0f);
+  return picture;
+}
+
+}  // namespace fenestra
