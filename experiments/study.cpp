@@ -1,6 +1,7 @@
 #include "experiments/study.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/check.h"
 
@@ -48,11 +49,22 @@ TrialSettings FixedSettings(const StudyPart& part, SensorKind sensor) {
   return settings;
 }
 
-std::vector<const Factor*> VariedFactors(const StudyPart& part, SensorKind sensor) {
+std::set<std::string> NamesOfVariedFactors(const Study& study) {
+  std::set<std::string> names;
+  for (const StudyPart& part : study.parts) {
+    for (const Factor& factor : part.factors) {
+      const Levels* levels = std::get_if<Levels>(&factor.setting);
+      if (levels != nullptr && levels->size() > 1) names.insert(factor.name);
+    }
+  }
+  return names;
+}
+
+std::vector<const Factor*> VariedFactors(const StudyPart& part, SensorKind sensor,
+                                         const std::set<std::string>& names) {
   std::vector<const Factor*> varied;
   for (const Factor& factor : part.factors) {
-    const Levels* levels = LevelsOf(factor, sensor);
-    if (levels != nullptr && levels->size() > 1) varied.push_back(&factor);
+    if (names.contains(factor.name) && LevelsOf(factor, sensor)) varied.push_back(&factor);
   }
   return varied;
 }
@@ -78,12 +90,13 @@ TrialSettings With(TrialSettings settings, const FactorValues& values) {
 
 std::vector<Cell> Cells(const Study& study) {
   FENESTRA_CHECK(CountCells(study) <= kMostCells, "too many cells");
+  const std::set<std::string> names = NamesOfVariedFactors(study);
   std::vector<Cell> cells;
   for (size_t p = 0; p < study.parts.size(); ++p) {
     const StudyPart& part = study.parts[p];
     for (const SensorKind sensor : part.sensors) {
       const TrialSettings fixed = FixedSettings(part, sensor);
-      const std::vector<const Factor*> varied = VariedFactors(part, sensor);
+      const std::vector<const Factor*> varied = VariedFactors(part, sensor, names);
       const int64_t count = CountCells(part, sensor);
       for (int64_t point = 0; point < count; ++point) {
         const FactorValues levels = LevelsAt(varied, point);

@@ -71,7 +71,8 @@ struct Cell {
   size_t part_index;  ///< Into Study::parts.
   std::string part;
   SensorKind sensor;
-  /// Of the factors that have several levels in this part and concern the sensor.
+  /// Of the factors that concern the sensor and have several levels in any part of the study, so
+  /// that the cells of all parts can be told apart; a factor that is drawn here is not among them.
   FactorValues levels;
   /// With all fixed values and levels; factors with distributions are at their defaults.
   TrialSettings settings;

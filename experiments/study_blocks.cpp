@@ -52,6 +52,11 @@ std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node)
     if (!entry.first.IsScalar()) continue;  // CheckKeys has noted it, as it has unknown names.
     const ParameterInfo* info = Factors().Find(entry.first.Scalar());
     if (info == nullptr) continue;
+    if (entry.second.IsNull()) {  // A missing value's position is that of whatever comes next.
+      reader.AddFault(entry.first,
+                      fmt::format("{} must be {}, not nothing", info->name, info->Allowed()));
+      continue;
+    }
     if (const auto setting = ReadFactorSetting(reader, *info, entry.second)) {
       given.push_back({{info->name, *setting}, entry.first});
     }

@@ -222,16 +222,16 @@ class StudyReader {
   static std::vector<GivenDetector> NoDetectors() { return {}; }
 
   void CheckSize(const Study& study) {
-    const YAML::Node& root = reader_.root();
+    const auto note = [this](const char* key, const std::string& message) {
+      const YAML::Node& root = reader_.root();
+      reader_.AddFault(root[key].IsDefined() ? root[key] : root, message);
+    };
     if (CountCells(study) > kMostCells) {
-      reader_.AddFault(root["factors"].IsDefined() ? root["factors"] : root,
-                       fmt::format("the study has {} cells; at most {} are allowed",
-                                   CountCells(study), kMostCells));
-    }
-    if (CountTrials(study) > kMostTrials) {
-      reader_.AddFault(root["repetitions"].IsDefined() ? root["repetitions"] : root,
-                       fmt::format("the study has {} trials; at most {} are allowed",
-                                   CountTrials(study), kMostTrials));
+      note("factors", fmt::format("the study has {} cells; at most {} are allowed",
+                                  CountCells(study), kMostCells));
+    } else if (CountTrials(study) > kMostTrials) {
+      note("repetitions", fmt::format("the study has {} trials; at most {} are allowed",
+                                      CountTrials(study), kMostTrials));
     }
   }
 

@@ -107,9 +107,8 @@ class AovCaster {
       const int column = first_column + i;
       cv::Vec2f offset(0.0f, 0.0f);
       if (!options_.offsets_px.empty()) offset = options_.offsets_px(row, column);
-      const Eigen::Vector2f point =
-          ImagePointAt(rays_, static_cast<float>(column) + offset[0],
-                       static_cast<float>(row) + offset[1]);
+      const Eigen::Vector2f point = ImagePointAt(rays_, static_cast<float>(column) + offset[0],
+                                                 static_cast<float>(row) + offset[1]);
       points.x[i] = point.x();
       points.y[i] = point.y();
     }
@@ -125,8 +124,8 @@ class AovCaster {
     const glm::vec3& a = soup.positions_W[soup.triangles[triangle].x];
     const Vector3d n_W = Vector3d(n.x, n.y, n.z);
     const Vector3d p_WA = Vector3d(a.x, a.y, a.z);
-    const Vector3d d_W = Vector3d(packet.ray.dir_x[lane], packet.ray.dir_y[lane],
-                                  packet.ray.dir_z[lane]);
+    const Vector3d d_W =
+        Vector3d(packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]);
     const double approach = n_W.dot(d_W);
     const double depth_m = n_W.dot(p_WA - X_WC_.translation()) / approach;
     const Vector3d normal_C =
@@ -151,9 +150,9 @@ class AovCaster {
       const float dx = p_WP.x() - to_point.org_x[i];
       const float dy = p_WP.y() - to_point.org_y[i];
       const float dz = p_WP.z() - to_point.org_z[i];
-      const float to_viewer = -(hit.Ng_x[i] * packet.ray.dir_x[i] +
-                                hit.Ng_y[i] * packet.ray.dir_y[i] +
-                                hit.Ng_z[i] * packet.ray.dir_z[i]);
+      const float to_viewer =
+          -(hit.Ng_x[i] * packet.ray.dir_x[i] + hit.Ng_y[i] * packet.ray.dir_y[i] +
+            hit.Ng_z[i] * packet.ray.dir_z[i]);
       const float to_p = hit.Ng_x[i] * dx + hit.Ng_y[i] * dy + hit.Ng_z[i] * dz;
       const bool hits = hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
       mask[i] = hits && to_viewer * to_p > 0.0f ? -1 : 0;

@@ -58,8 +58,8 @@ std::vector<RayPacket> MakePackets() {
         const Eigen::Vector2f& a = rays.Corner(column + i / 4 % 2, row + i / 8);
         const Eigen::Vector2f& b = rays.Corner(column + i / 4 % 2 + 1, row + i / 8 + 1);
         const auto sample = static_cast<size_t>(i % kSamples);
-        x[i] = a.x() + (b.x() - a.x()) * ToUnit(kNetTable.x[sample]);
-        y[i] = a.y() + (b.y() - a.y()) * ToUnit(kNetTable.y[sample]);
+        x[i] = a.x() + (b.x() - a.x()) * ToUnit(ReverseBits(kNetTable.x[sample]));
+        y[i] = a.y() + (b.y() - a.y()) * ToUnit(ReverseBits(kNetTable.y[sample]));
       }
       RayPacket& packet = packets.emplace_back();
       SetRays(packet, camera.p_WC, ToWorld(camera.axes, x, y));
@@ -106,7 +106,9 @@ void BM_RenderStereoImage(benchmark::State& state) {
   RenderLoop(state, Daylight(), {.edge_samples_per_pixel = kSamples});
 }
 
-void BM_RenderAdaptive(benchmark::State& state) { RenderLoop(state, Daylight(), {}); }
+void BM_RenderAdaptive(benchmark::State& state) {
+  RenderLoop(state, Daylight(), {});
+}
 
 void BM_CastAovs(benchmark::State& state) {
   const RayCaster caster(MakeScene(state.range(0)));

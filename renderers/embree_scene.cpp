@@ -11,7 +11,9 @@ EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr)) {
   if (device_ == nullptr) throw std::runtime_error("Embree does not run on this machine");
 }
 
-EmbreeDevice::~EmbreeDevice() { rtcReleaseDevice(device_); }
+EmbreeDevice::~EmbreeDevice() {
+  rtcReleaseDevice(device_);
+}
 
 EmbreeScene::EmbreeScene(const EmbreeDevice& device, const TriangleSoup& soup)
     : scene_(rtcNewScene(device.get())), empty_(soup.triangles.empty()) {
@@ -23,9 +25,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const TriangleSoup& soup)
     void* positions =
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                 sizeof(glm::vec3), soup.positions_W.size());
-    void* triangles =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                sizeof(glm::uvec3), soup.triangles.size());
+    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                              sizeof(glm::uvec3), soup.triangles.size());
     FENESTRA_CHECK(positions != nullptr && triangles != nullptr, "Embree is out of memory");
     std::memcpy(positions, soup.positions_W.data(), soup.positions_W.size() * sizeof(glm::vec3));
     std::memcpy(triangles, soup.triangles.data(), soup.triangles.size() * sizeof(glm::uvec3));
@@ -38,6 +39,8 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const TriangleSoup& soup)
   FENESTRA_CHECK(error == RTC_ERROR_NONE, "Embree error " + std::to_string(error));
 }
 
-EmbreeScene::~EmbreeScene() { rtcReleaseScene(scene_); }
+EmbreeScene::~EmbreeScene() {
+  rtcReleaseScene(scene_);
+}
 
 }  // namespace fenestra

@@ -74,8 +74,8 @@ ExrImage ReadOrThrow(const std::filesystem::path& file) {
   const int64_t width = int64_t{window.max.x} - window.min.x + 1;
   const int64_t height = int64_t{window.max.y} - window.min.y + 1;
   if (width > kLargestSide_px || height > kLargestSide_px) {
-    throw InputError(file, fmt::format("{} x {} px are more than {} px a side", width, height,
-                                       kLargestSide_px));
+    throw InputError(
+        file, fmt::format("{} x {} px are more than {} px a side", width, height, kLargestSide_px));
   }
   ExrImage image;
   Imf::FrameBuffer frame;

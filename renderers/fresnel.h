@@ -8,9 +8,9 @@ namespace fenestra {
 /// Fresnel reflectance of one air-to-glass surface for unpolarised light.
 /// c: cosine of the angle of incidence in air, in [0, 1]; n ≥ 1: refractive index.
 ///
-///     c' = √(1 − (1 − c²)/n²),   F = ½ [((c − n c')/(c + n c'))² + ((n c − c')/(n c + c'))²]
+///     c' = √(n² − 1 + c²)/n,   F = ½ [((c − n c')/(c + n c'))² + ((n c − c')/(n c + c'))²]
 inline float FresnelReflectance(float c, float n) {
-  const float c_inside = std::sqrt(1.0f - (1.0f - c * c) / (n * n));
+  const float c_inside = std::sqrt((n * n - 1.0f) + c * c) / n;
   const float s = (c - n * c_inside) / (c + n * c_inside);
   const float p = (n * c - c_inside) / (n * c + c_inside);
   return 0.5f * (s * s + p * p);

@@ -36,8 +36,8 @@ FENESTRA_WIDE ImagePoints SamplePatch(const PixelPatch& patch, const uint32_t* n
                                       uint32_t scramble_y) {
   ImagePoints points;
   for (int i = 0; i < kLanes; ++i) {
-    const float s = ToUnit(net_x[i] ^ scramble_x);
-    const float t = ToUnit(net_y[i] ^ scramble_y);
+    const float s = ToUnit(OwenScrambled(net_x[i], scramble_x));
+    const float t = ToUnit(OwenScrambled(net_y[i], scramble_y));
     points.x[i] = patch.x0 + s * patch.xs + t * (patch.xt + s * patch.xst);
     points.y[i] = patch.y0 + s * patch.ys + t * (patch.yt + s * patch.yst);
   }
@@ -49,8 +49,8 @@ FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangl
   const RTCHit16& hit = packet.hit;
   Lanes<uint32_t> side;
   for (int i = 0; i < kLanes; ++i) {
-    const float facing = hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] +
-                         hit.Ng_z[i] * ray.dir_z[i];
+    const float facing =
+        hit.Ng_x[i] * ray.dir_x[i] + hit.Ng_y[i] * ray.dir_y[i] + hit.Ng_z[i] * ray.dir_z[i];
     const uint32_t triangle =
         hit.primID[i] == RTC_INVALID_GEOMETRY_ID ? triangle_count : hit.primID[i];
     side[i] = 2 * triangle + (facing < 0.0f ? 0u : 1u);

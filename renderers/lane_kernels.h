@@ -35,8 +35,8 @@ FloatPose ToFloat(const Pose& X_WC);
 /// axis.
 Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x, const Lanes<float>& y);
 
-/// The image coordinates of samples (s, t) in [0, 1)² of one pixel: Sobol points first to
-/// first + 15, scrambled.
+/// The image coordinates of sixteen samples (s, t) in [0, 1)² of one pixel: scrambled points from
+/// kNetTable.
 struct ImagePoints {
   Lanes<float> x;
   Lanes<float> y;

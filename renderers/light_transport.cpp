@@ -9,7 +9,9 @@
 namespace fenestra {
 namespace {
 
-uint32_t Mix(uint32_t key, uint32_t other) { return (key * 0x9e3779b1u) ^ (other + 0x7f4a7c15u); }
+uint32_t Mix(uint32_t key, uint32_t other) {
+  return (key * 0x9e3779b1u) ^ (other + 0x7f4a7c15u);
+}
 
 // Where lanes of a packet hit panes, and the mirrored rays from there.
 struct PaneHits {
@@ -19,7 +21,9 @@ struct PaneHits {
   bool any = false;
 };
 
-glm::vec3 At(const float* x, const float* y, const float* z, int i) { return {x[i], y[i], z[i]}; }
+glm::vec3 At(const float* x, const float* y, const float* z, int i) {
+  return {x[i], y[i], z[i]};
+}
 
 PaneHits FindPaneHits(const TracedScene& traced, const LaneMask& mask, const RayPacket& packet,
                       float offset_m) {

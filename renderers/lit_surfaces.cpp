@@ -72,11 +72,11 @@ std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& 
                         E_ground * static_cast<double>(view[corner].ground));
       };
       const double sky = sky_at(0);
-      sides.push_back({.sky = static_cast<float>(sky),
-                       .sky_u = static_cast<float>(sky_at(1) - sky),
-                       .sky_v = static_cast<float>(sky_at(2) - sky),
-                       .sun = static_cast<float>(per_E * E_sun *
-                                                 std::max(front ? cos_sun : -cos_sun, 0.0))});
+      sides.push_back(
+          {.sky = static_cast<float>(sky),
+           .sky_u = static_cast<float>(sky_at(1) - sky),
+           .sky_v = static_cast<float>(sky_at(2) - sky),
+           .sun = static_cast<float>(per_E * E_sun * std::max(front ? cos_sun : -cos_sun, 0.0))});
     }
   }
   for (const double E : {E_sky, E_ground}) {

@@ -21,7 +21,9 @@ struct SideRadiance {
 
 /// Index of the side of a surface in SideRadiance tables: see SkyView. After the last triangle
 /// follow the sky and the ground, as if they were the two sides of one more triangle.
-constexpr size_t SideIndex(size_t triangle, bool front) { return 2 * triangle + (front ? 0 : 1); }
+constexpr size_t SideIndex(size_t triangle, bool front) {
+  return 2 * triangle + (front ? 0 : 1);
+}
 
 /// One quantity in which light is measured.
 enum class Channel { kLuminance, kRed, kGreen, kBlue, kInfrared, kIlluminance };

@@ -54,9 +54,9 @@ class Sampler {
     std::array<Lanes<float>, kMostChannels> sums{};
     PixelResult result;
     for (int first = 0; first < samples; first += kLanes) {
-      const ImagePoints points = SamplePatch(patch, &kNetTable.x[static_cast<size_t>(first)],
-                                             &kNetTable.y[static_cast<size_t>(first)], scramble.x,
-                                             scramble.y);
+      const ImagePoints points =
+          SamplePatch(patch, &kNetTable.x[static_cast<size_t>(first)],
+                      &kNetTable.y[static_cast<size_t>(first)], scramble.x, scramble.y);
       const LightTransport::Arriving arriving = Trace(FirstLanes(kLanes), points);
       for (size_t c = 0; c < Channels(); ++c) {
         for (int i = 0; i < kLanes; ++i) sums[c][i] += arriving.radiance[c][i];
@@ -76,14 +76,14 @@ class Sampler {
 
   // 1 or 4 samples of each of 16 or 4 pixels; the first `count` of them are wanted.
   std::array<PixelResult, kLanes> SampleSparsely(const std::array<Pixel, kLanes>& pixels, int count,
-                                              int samples) const {
+                                                 int samples) const {
     ImagePoints points;
     for (int p = 0; p < count; ++p) {
       const PixelPatch patch = PatchOf(rays_, pixels[static_cast<size_t>(p)]);
       const NetPoint scramble = Scramble(pixels[static_cast<size_t>(p)]);
       for (int j = 0; j < samples; ++j) {
-        const float s = ToUnit(kNetTable.x[static_cast<size_t>(j)] ^ scramble.x);
-        const float t = ToUnit(kNetTable.y[static_cast<size_t>(j)] ^ scramble.y);
+        const float s = ToUnit(OwenScrambled(kNetTable.x[static_cast<size_t>(j)], scramble.x));
+        const float t = ToUnit(OwenScrambled(kNetTable.y[static_cast<size_t>(j)], scramble.y));
         const int i = p * samples + j;
         points.x[i] = patch.x0 + s * patch.xs + t * (patch.xt + s * patch.xst);
         points.y[i] = patch.y0 + s * patch.ys + t * (patch.yt + s * patch.yst);
@@ -111,9 +111,9 @@ class Sampler {
   size_t Channels() const { return static_cast<size_t>(light_.channel_count()); }
 
   NetPoint Scramble(Pixel pixel) const {
-    return ScrambleOf(key_, static_cast<uint64_t>(pixel.row) *
-                                    static_cast<uint64_t>(rays_.width_px()) +
-                                static_cast<uint64_t>(pixel.column));
+    return ScrambleOf(key_,
+                      static_cast<uint64_t>(pixel.row) * static_cast<uint64_t>(rays_.width_px()) +
+                          static_cast<uint64_t>(pixel.column));
   }
 
   LightTransport::Arriving Trace(const LaneMask& mask, const ImagePoints& points) const {
@@ -213,8 +213,8 @@ void Validate(const RenderOptions& options) {
   std::vector<InputFault> faults;
   const auto check = [&faults](const char* name, int samples) {
     if (samples == 1 || samples == 4 || samples == 16 || samples == 64 || samples == 256) return;
-    faults.push_back({"render", 0, 0, fmt::format("{} must be 1, 4, 16, 64 or 256, not {}", name,
-                                                  samples)});
+    faults.push_back(
+        {"render", 0, 0, fmt::format("{} must be 1, 4, 16, 64 or 256, not {}", name, samples)});
   };
   check("samples_per_pixel", options.samples_per_pixel);
   check("edge_samples_per_pixel", options.edge_samples_per_pixel);

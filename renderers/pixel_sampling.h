@@ -12,9 +12,9 @@ namespace fenestra {
 /// The mean radiance of each pixel's area: a few samples everywhere, then many in place of them
 /// wherever two different things meet among the samples of a pixel and its eight neighbours.
 ///
-/// Sample i of a pixel is Sobol point i, scrambled with a hash of the stream's key and the pixel's
-/// index. So samples of a pixel are stratified along x and along y, and the errors of different
-/// pixels are independent.
+/// Sample i of a pixel is Sobol point i, scrambled (see net_samples.h) by a hash of the stream's
+/// key and the pixel's index. So samples of a pixel are stratified along x and along y, and the
+/// errors of different pixels are independent.
 cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
                     const RenderOptions& options, const RandomStream& sampling);
 

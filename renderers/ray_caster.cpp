@@ -27,7 +27,9 @@ RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) 
 
 RayCaster::~RayCaster() = default;
 
-const Scene& RayCaster::scene() const { return impl_->scene; }
+const Scene& RayCaster::scene() const {
+  return impl_->scene;
+}
 
 cv::Mat RayCaster::Render(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
                           const RenderOptions& options, const RandomStream& sampling) const {

@@ -81,7 +81,8 @@ struct Ending {
   bool in_sky = false;
 
   bool DiffersFrom(const Ending& other) const {
-    return in_sky != other.in_sky ||
+    const bool blocked = transmittance == 0.0f && other.transmittance == 0.0f;
+    return (in_sky != other.in_sky && !blocked) ||
            std::abs(transmittance - other.transmittance) > kSameTransmittance;
   }
 };

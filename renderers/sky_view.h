@@ -23,9 +23,9 @@ using TriangleSkyView = std::array<SkyView, 3>;
 
 /// For opaque triangle t: [2 t] is the side that the normal points to, [2 t + 1] the other one.
 ///
-/// Per corner, the visible part of the hemisphere is found with rays, separately above and below the
-/// horizon, and multiplies the unobstructed value; panes count with their transmittance. A side that
-/// the whole scene lies behind is exact; the inside of a closed body is 0.
+/// Per corner, the visible part of the hemisphere is found with rays, separately above and below
+/// the horizon, and multiplies the unobstructed value; panes count with their transmittance. A side
+/// that the whole scene lies behind is exact; the inside of a closed body is 0.
 ///
 /// The hemisphere is divided into 32 x 32 cells of equal cosine-weighted solid angle, with a ray
 /// each; where neighbouring rays end differently, 16 rays per cell follow. Error: about 0.001.

@@ -35,12 +35,12 @@ bool AnyHit(const LaneMask& mask) {
 float HitCosine(const RayPacket& packet, int lane) {
   const RTCHit16& h = packet.hit;
   const RTCRay16& r = packet.ray;
-  const float nn = h.Ng_x[lane] * h.Ng_x[lane] + h.Ng_y[lane] * h.Ng_y[lane] +
-                   h.Ng_z[lane] * h.Ng_z[lane];
-  const float dd = r.dir_x[lane] * r.dir_x[lane] + r.dir_y[lane] * r.dir_y[lane] +
-                   r.dir_z[lane] * r.dir_z[lane];
-  const float nd = h.Ng_x[lane] * r.dir_x[lane] + h.Ng_y[lane] * r.dir_y[lane] +
-                   h.Ng_z[lane] * r.dir_z[lane];
+  const float nn =
+      h.Ng_x[lane] * h.Ng_x[lane] + h.Ng_y[lane] * h.Ng_y[lane] + h.Ng_z[lane] * h.Ng_z[lane];
+  const float dd =
+      r.dir_x[lane] * r.dir_x[lane] + r.dir_y[lane] * r.dir_y[lane] + r.dir_z[lane] * r.dir_z[lane];
+  const float nd =
+      h.Ng_x[lane] * r.dir_x[lane] + h.Ng_y[lane] * r.dir_y[lane] + h.Ng_z[lane] * r.dir_z[lane];
   return std::abs(nd) / std::sqrt(nn * dd);
 }
 
@@ -75,8 +75,8 @@ Lanes<float> TracedScene::PaneTransmittance(const LaneMask& mask, const RTCRay16
         active[i] = 0;
         continue;
       }
-      passed[i] *= 1.0f - PaneReflectance(HitCosine(packet, i),
-                                          refractive_index(packet.hit.primID[i]));
+      passed[i] *=
+          1.0f - PaneReflectance(HitCosine(packet, i), refractive_index(packet.hit.primID[i]));
       packet.ray.tnear[i] = Beyond(packet.ray.tfar[i]);
       packet.ray.tfar[i] = rays.tfar[i];
     }

@@ -17,8 +17,8 @@ TriangleSoup MakeTriangleSoup(const Scene& scene, Material::Kind kind) {
                             mesh.positions_W.end());
     for (const glm::uvec3& t : mesh.triangles) {
       const glm::dvec3 a = mesh.positions_W[t.x];
-      const glm::dvec3 cross = glm::cross(glm::dvec3(mesh.positions_W[t.y]) - a,
-                                          glm::dvec3(mesh.positions_W[t.z]) - a);
+      const glm::dvec3 cross =
+          glm::cross(glm::dvec3(mesh.positions_W[t.y]) - a, glm::dvec3(mesh.positions_W[t.z]) - a);
       const double length = glm::length(cross);
       if (!(length > 0.0)) continue;
       soup.triangles.push_back(t + base);

@@ -12,11 +12,11 @@ namespace fenestra {
 /// without area are left out: no ray can hit them.
 struct TriangleSoup {
   std::vector<glm::vec3> positions_W;
-  std::vector<glm::uvec3> triangles;   ///< Indices into positions_W.
-  std::vector<uint32_t> mesh_of;       ///< Of each triangle, in the scene.
-  std::vector<glm::vec3> normals_W;    ///< Of each triangle: unit, right-handed with its corners.
+  std::vector<glm::uvec3> triangles;  ///< Indices into positions_W.
+  std::vector<uint32_t> mesh_of;      ///< Of each triangle, in the scene.
+  std::vector<glm::vec3> normals_W;   ///< Of each triangle: unit, right-handed with its corners.
 
-  std::vector<bool> is_closed;         ///< Of each triangle: see Mesh::closed.
+  std::vector<bool> is_closed;  ///< Of each triangle: see Mesh::closed.
 
   size_t size() const { return triangles.size(); }
 };

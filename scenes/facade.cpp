@@ -27,7 +27,7 @@ constexpr double kRebate_m = 0.005;
 // Light varies fastest where reveal, frame and wall meet. Cells of at most 5 cm there, growing with
 // the distance, keep the error of linear interpolation about that of the baked light itself.
 constexpr double kFinestCell_m = 0.05;
-constexpr double kCellGrowth = 0.4;
+constexpr double kCellGrowth = 0.5;
 constexpr double kLargestCell_m = 1.0;
 
 double CellSize(double distance_m) {
@@ -104,8 +104,8 @@ SolidLattice MakeLattice(const Plan& plan) {
   std::array<std::vector<float>, 3> breaks;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> fixed;
-    for (const Box& box : {plan.building, plan.room, plan.room_shell, plan.opening, plan.frame,
-                           plan.frame_hole}) {
+    for (const Box& box :
+         {plan.building, plan.room, plan.room_shell, plan.opening, plan.frame, plan.frame_hole}) {
       fixed.push_back(box.low[axis]);
       fixed.push_back(box.high[axis]);
     }

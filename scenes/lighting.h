@@ -11,9 +11,9 @@ inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
 /// A distant disc too small to blur a shadow at window scale.
 struct Sun {
   /// Above the horizon, in the facade's half space for a positive z.
-  double azimuth_rad = 0.0;    ///< From the facade's normal (+Z) towards +X.
-  double elevation_rad = 0.7;  ///< Above the horizon.
-  double illuminance_lx = 0.0; ///< On a plane perpendicular to the rays; 0: no sun.
+  double azimuth_rad = 0.0;     ///< From the facade's normal (+Z) towards +X.
+  double elevation_rad = 0.7;   ///< Above the horizon.
+  double illuminance_lx = 0.0;  ///< On a plane perpendicular to the rays; 0: no sun.
 
   /// Unit vector from the scene to the sun.
   Eigen::Vector3d Direction_W() const;
@@ -21,8 +21,8 @@ struct Sun {
 
 /// A sky dome of uniform luminance above the horizon and a Lambert ground below it.
 struct Sky {
-  double illuminance_lx = 500.0;      ///< On an unobstructed horizontal plane: π · luminance.
-  double ground_reflectance = 0.2;    ///< Of the ground, lit by the sky alone.
+  double illuminance_lx = 500.0;    ///< On an unobstructed horizontal plane: π · luminance.
+  double ground_reflectance = 0.2;  ///< Of the ground, lit by the sky alone.
 };
 
 /// All light of a scene; radiance is linear in each illuminance. `irradiance_830_per_lux` turns

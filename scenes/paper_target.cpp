@@ -44,9 +44,9 @@ Box Plate(double width_m, double height_m) {
 
 std::vector<float> Breaks(double wall_m, double target_m, double border_m) {
   const double inner_m = 0.5 * target_m - border_m;
-  return GradedBreaks({-0.5 * wall_m, -0.5 * target_m, -inner_m, inner_m, 0.5 * target_m,
-                       0.5 * wall_m},
-                      [](double) { return kCell_m; });
+  return GradedBreaks(
+      {-0.5 * wall_m, -0.5 * target_m, -inner_m, inner_m, 0.5 * target_m, 0.5 * wall_m},
+      [](double) { return kCell_m; });
 }
 
 Material Paint(const char* name, double reflectance, double reflectance_830nm) {

@@ -17,8 +17,8 @@ bool InUnitInterval(float x) {
 void CheckMaterial(const Material& material, size_t index, std::vector<InputFault>& faults) {
   const auto demand = [&](bool holds, const char* message) {
     if (holds) return;
-    faults.push_back({"scene", 0, 0, fmt::format("material {} '{}': {}", index, material.name,
-                                                 message)});
+    faults.push_back(
+        {"scene", 0, 0, fmt::format("material {} '{}': {}", index, material.name, message)});
   };
   if (material.kind == Material::Kind::kGlass) {
     demand(std::isfinite(material.refractive_index) && material.refractive_index >= 1.0f,
@@ -45,10 +45,9 @@ void CheckMesh(const Mesh& mesh, size_t index, size_t material_count,
                              }),
          "positions must be finite");
   const size_t count = mesh.positions_W.size();
-  demand(std::ranges::all_of(mesh.triangles,
-                             [count](const glm::uvec3& t) {
-                               return t.x < count && t.y < count && t.z < count;
-                             }),
+  demand(std::ranges::all_of(
+             mesh.triangles,
+             [count](const glm::uvec3& t) { return t.x < count && t.y < count && t.z < count; }),
          "a triangle refers to a position that does not exist");
 }
 
@@ -58,8 +57,8 @@ void CheckWindow(const TargetWindow& window, std::vector<InputFault>& faults) {
     return;
   }
   faults.push_back({"scene", 0, 0,
-                    fmt::format("a window of {} m x {} m must have positive sides",
-                                window.width_m, window.height_m)});
+                    fmt::format("a window of {} m x {} m must have positive sides", window.width_m,
+                                window.height_m)});
 }
 
 }  // namespace

@@ -22,17 +22,17 @@ struct Material {
 
   std::string name;
   Kind kind = Kind::kLambert;
-  glm::vec3 reflectance_rgb{0.0f};     ///< Lambert only; linear, each in [0, 1].
-  float reflectance_830nm = 0.0f;      ///< Lambert only; in [0, 1].
-  float refractive_index = 1.52f;      ///< Glass only; 1.52: soda-lime float glass.
+  glm::vec3 reflectance_rgb{0.0f};  ///< Lambert only; linear, each in [0, 1].
+  float reflectance_830nm = 0.0f;   ///< Lambert only; in [0, 1].
+  float refractive_index = 1.52f;   ///< Glass only; 1.52: soda-lime float glass.
 };
 
 /// Triangles of one object and one material. A surface is two-sided unless it is closed.
 struct Mesh {
   std::string name;
-  std::vector<glm::vec3> positions_W;        ///< [m]
-  std::vector<glm::uvec3> triangles;         ///< Indices into positions_W.
-  uint32_t material = 0;                     ///< Index into Scene::materials.
+  std::vector<glm::vec3> positions_W;  ///< [m]
+  std::vector<glm::uvec3> triangles;   ///< Indices into positions_W.
+  uint32_t material = 0;               ///< Index into Scene::materials.
   /// Bounds a solid body on whose inside no light falls; triangles wind counter-clockwise as seen
   /// from outside.
   bool closed = false;

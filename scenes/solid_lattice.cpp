@@ -8,7 +8,8 @@
 namespace fenestra {
 namespace {
 
-// Fixed coordinates closer than this are one: a micrometre, far above the rounding of sums of sizes.
+// Fixed coordinates closer than this are one: a micrometre, far above the rounding of sums of
+// sizes.
 constexpr double kSameCoordinate_m = 1e-6;
 
 void AppendHalves(double low, double high, const std::function<double(double)>& cell_size,

@@ -23,7 +23,8 @@ std::vector<float> GradedBreaks(std::vector<double> fixed,
 
 /// Buildings from blocks: a rectilinear lattice whose cells are air or one of several solids.
 /// Where a solid meets air there is a surface, tessellated by the lattice itself. So neighbouring
-/// faces share the very same corners (no cracks, no T-junctions), and no two faces overlap. Outside the lattice is air.
+/// faces share the very same corners (no cracks, no T-junctions), and no two faces overlap. Outside
+/// the lattice is air.
 class SolidLattice {
  public:
   using Solid = uint8_t;

@@ -47,7 +47,7 @@ TEST(Study, CellsAreTheFullGridOfEachSensor) {
     EXPECT_EQ(cells[i].part, i < 16 ? "one" : "two");
     EXPECT_EQ(cells[i].repetitions, i < 16 ? 3 : 4);
     EXPECT_EQ(cells[i].sensor, i < 12 ? SensorKind::kStereo : SensorKind::kRgbd);
-    EXPECT_EQ(cells[i].levels.size(), i < 12 ? 3u : i < 16 ? 2u : 1u);
+    EXPECT_EQ(cells[i].levels.size(), i < 12 ? 3u : 2u);
   }
 }
 
@@ -67,6 +67,13 @@ TEST(Study, TheLastFactorRunsFastest) {
       }
     }
   }
+}
+
+// A factor that varies in one part is shown in the others too.
+TEST(Study, PartsAreComparable) {
+  const std::vector<Cell> cells = Cells(ReadText(kGrid));
+  EXPECT_EQ(cells[16].levels, (FactorValues{{"distance_m", 1.0}, {"azimuth_deg", 0.0}}));
+  EXPECT_EQ(cells[17].levels, (FactorValues{{"distance_m", 1.0}, {"azimuth_deg", 10.0}}));
 }
 
 TEST(Study, CellsHaveTheirSensorsDetectorsAndDraws) {

@@ -25,7 +25,7 @@ factors:
   glass: [true, false]
   distance_m: [0.1, 1.0000000000000002, 33.333333333333336, 1e2]
   sun_azimuth_deg: {from: -90, to: 90, step: 22.5}
-  yaw_deg: {uniform: [-3.3, 0.1]}
+  yaw_deg: {uniform: [-3.3000000000000003, 0.1]}
   sky_illuminance_lx: {log_uniform: [1e-3, 1e5]}
   roll_deg: {triangular: {min: -1, mode: 0.7, max: 1}}
   pitch_deg: {normal: {mean: 0.1, sd: 1.5}}

@@ -17,11 +17,15 @@ constexpr int kSize = 240;
 constexpr double kFocal_px = 200.0;
 constexpr double kDistance = 2.0;
 
-// A half-plane that is lit evenly. Its edge passes the image point (100.3, 0) px right of and below
-// the centre, leaning by `tilt_rad` from the vertical; the image is dark right of it.
+// The edge passes the image point that is this far right of and below the image's centre.
+constexpr double kRight_px = 0.3;
+constexpr double kBelow_px = 0.2;
+
+// A half-plane that is lit evenly. Its edge leans from the vertical by `tilt_rad`, clockwise; what
+// is left of it, or above it, is lit.
 Scene HalfPlane(double tilt_rad) {
   const double m_per_px = kDistance / kFocal_px;
-  const Eigen::Vector3d on_edge(0.3 * m_per_px, 0.0, 0.0);
+  const Eigen::Vector3d on_edge(kRight_px * m_per_px, -kBelow_px * m_per_px, 0.0);
   const Eigen::Vector3d along(std::sin(tilt_rad), std::cos(tilt_rad), 0.0);
   const Eigen::Vector3d left(-std::cos(tilt_rad), std::sin(tilt_rad), 0.0);
   std::vector<glm::vec3> corners;
@@ -44,23 +48,21 @@ std::vector<double> EdgeErrors(double tilt_rad, int edge_samples) {
   const RayGrid rays(CameraModel::Pinhole(kSize, kSize, kFocal_px));
   cv::Mat1f image = caster.Render(rays, FacingTheWall({0, 0, kDistance}), OnlySun(0.0, 0.1, 1e5),
                                   {.edge_samples_per_pixel = edge_samples}, RandomStream(3));
-  const bool steep = std::abs(tilt_rad) < std::numbers::pi / 4.0 + 1e-9;
-  const double slope = steep ? -std::tan(tilt_rad) : -1.0 / std::tan(tilt_rad);
-  const double centre = 0.5 * (kSize - 1);
-  const double full = image(kSize / 2, steep ? 0 : 0);
+  const bool steep = tilt_rad < std::numbers::pi / 4.0 + 1e-9;
+  const double full = image(steep ? kSize / 2 : 0, steep ? 0 : kSize / 2);
   if (!steep) image = image.t();
+  const double perpendicular = steep ? std::cos(tilt_rad) : std::sin(tilt_rad);
   std::vector<double> errors;
   for (int row = 0; row < kSize; ++row) {
-    // Along a row: x = 0.3 - tan(tilt) y_down; along a column: y_down = -(x - 0.3)/tan(tilt).
-    const double across = row - centre;
-    const double edge = steep ? 0.3 + slope * across : slope * (across - 0.3);
+    const double across = row - 0.5 * (kSize - 1);
+    const double edge = steep ? kRight_px - std::tan(tilt_rad) * (across - kBelow_px)
+                              : kBelow_px - (across - kRight_px) / std::tan(tilt_rad);
     if (std::abs(edge) > 0.5 * kSize - 3.0) continue;  // It leaves the image within this row.
     double lit_px = 0.0;
     for (int column = 0; column < kSize; ++column) {
       lit_px += static_cast<double>(image(row, column)) / full;
     }
-    const double lit_from_start = steep || slope > 0.0 ? lit_px : kSize - lit_px;
-    errors.push_back(lit_from_start - (edge + 0.5 * kSize));
+    errors.push_back((lit_px - (edge + 0.5 * kSize)) * perpendicular);
   }
   return errors;
 }
@@ -71,7 +73,6 @@ double Rms(const std::vector<double>& errors) {
   return std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-// In degrees. At 90 the edge is a row's border's parallel, and so on.
 const std::vector<double> kTilts_deg = {0.0, 0.5, 3.0, 11.0, 30.0, 45.0, 70.0, 88.0, 90.0};
 
 TEST(EdgeSampling, PlacesEdgesToSixThousandthsOfAPixel) {
@@ -106,8 +107,8 @@ TEST(EdgeSampling, PixelsAwayFromEdgesKeepTheirBaseSamples) {
   const RayGrid rays(CameraModel::Pinhole(kSize, kSize, kFocal_px));
   const Pose X_WC = FacingTheWall({0, 0, kDistance});
   Lighting lighting = OnlySky(1e4, 0.2);
-  const cv::Mat1f few = caster.Render(rays, X_WC, lighting, {.edge_samples_per_pixel = 4},
-                                      RandomStream(3));
+  const cv::Mat1f few =
+      caster.Render(rays, X_WC, lighting, {.edge_samples_per_pixel = 4}, RandomStream(3));
   const cv::Mat1f many = caster.Render(rays, X_WC, lighting, {}, RandomStream(3));
   const double differing = cv::countNonZero(few != many);
   EXPECT_GT(differing, kSize);        // More than a pixel in each row, but
@@ -117,14 +118,12 @@ TEST(EdgeSampling, PixelsAwayFromEdgesKeepTheirBaseSamples) {
 TEST(NetSamples, StayStratifiedUnderScrambling) {
   for (const uint64_t pixel : {0u, 1u, 752u * 480u}) {
     const NetPoint scramble = ScrambleOf(99, pixel);
-    for (const int bits_x : {0, 1, 4, 7, 8}) {  // All shapes of elementary intervals of area 1/256.
-      std::set<uint32_t> intervals;
+    for (const int bits_x : {0, 1, 4, 7, 8}) {  // Shapes of elementary intervals of area 1/256.
+      std::set<std::pair<uint64_t, uint64_t>> intervals;
       for (size_t i = 0; i < kMostPixelSamples; ++i) {
-        const uint64_t x = kNetTable.x[i] ^ scramble.x;
-        const uint64_t y = kNetTable.y[i] ^ scramble.y;
-        const int bits_y = 8 - bits_x;
-        intervals.insert(static_cast<uint32_t>(((x << bits_x) >> 32) << bits_y |
-                                               ((y << bits_y) >> 32)));
+        const uint64_t x = OwenScrambled(kNetTable.x[i], scramble.x);
+        const uint64_t y = OwenScrambled(kNetTable.y[i], scramble.y);
+        intervals.insert({x >> (32 - bits_x), y >> (24 + bits_x)});
       }
       EXPECT_EQ(intervals.size(), 256u) << bits_x;
     }

@@ -30,7 +30,9 @@ cv::Mat1f Render(const Scene& scene, const Lighting& lighting) {
 }
 
 // Cosine of incidence at a pixel's centre, the pane being parallel to the image.
-double CosineAt(int u, int v) { return 1.0 / DistortedCamera().UnprojectRay({u, v})->norm(); }
+double CosineAt(int u, int v) {
+  return 1.0 / DistortedCamera().UnprojectRay({u, v})->norm();
+}
 
 TEST(PaneReflectance, AtNormalIncidenceIsTheTextbookValue) {
   const double F = std::pow((1.52 - 1.0) / (1.52 + 1.0), 2);  // 0.0426
@@ -49,7 +51,7 @@ TEST(PaneReflectance, GrowsTowardsOneAtGrazingIncidence) {
 }
 
 TEST(PaneReflectance, OfIndexOneIsNone) {
-  for (const float c : {0.0f, 0.3f, 1.0f}) EXPECT_EQ(PaneReflectance(c, 1.0f), 0.0f);
+  for (const float c : {0.0f, 0.3f, 1.0f}) EXPECT_LT(PaneReflectance(c, 1.0f), 1e-6f);
 }
 
 TEST(Pane, DimsTheSunOnItsWayInAndTheWallOnItsWayOut) {
@@ -57,10 +59,10 @@ TEST(Pane, DimsTheSunOnItsWayInAndTheWallOnItsWayOut) {
   const double sun_cosine = lighting.sun.Direction_W().z();
   const cv::Mat1f image = Render(WallBehindPane(0.7f), lighting);
   for (const auto& [u, v] : {std::pair{187, 119}, {10, 10}, {300, 200}}) {
-    const double T_in = 1.0 - static_cast<double>(PaneReflectance(
-                                  static_cast<float>(sun_cosine), kGlassIndex));
-    const double T_out = 1.0 - static_cast<double>(PaneReflectance(
-                                   static_cast<float>(CosineAt(u, v)), kGlassIndex));
+    const double T_in =
+        1.0 - static_cast<double>(PaneReflectance(static_cast<float>(sun_cosine), kGlassIndex));
+    const double T_out =
+        1.0 - static_cast<double>(PaneReflectance(static_cast<float>(CosineAt(u, v)), kGlassIndex));
     const double expected = 0.7 / kPi * 5e4 * sun_cosine * T_in * T_out;
     // The mean over a pixel departs from its centre by R'' px²/(24 f²) < 1e-5; then rounding.
     EXPECT_NEAR(image(v, u), expected, 2e-5 * expected);
@@ -73,7 +75,7 @@ TEST(Pane, MirrorsSkyAndGround) {
     const double R =
         static_cast<double>(PaneReflectance(static_cast<float>(CosineAt(u, v)), kGlassIndex));
     const double L = 1e4 / kPi * (v < 120 ? 1.0 : 0.3);  // The horizon is at row 119.5.
-    EXPECT_NEAR(image(v, u), R * L, 2e-4 * R * L);  // As above; R varies faster than 1 - R.
+    EXPECT_NEAR(image(v, u), R * L, 2e-4 * R * L);       // As above; R varies faster than 1 - R.
   }
 }
 
@@ -83,8 +85,7 @@ TEST(Pane, DimsTheSkyByItsMeanTransmittance) {
   constexpr int kSteps = 10000;
   for (int i = 0; i < kSteps; ++i) {
     const double c = (i + 0.5) / kSteps;
-    const double T =
-        1.0 - static_cast<double>(PaneReflectance(static_cast<float>(c), kGlassIndex));
+    const double T = 1.0 - static_cast<double>(PaneReflectance(static_cast<float>(c), kGlassIndex));
     T_diffuse += 2.0 * T * c / kSteps;
   }
   const double T_out = 1.0 - static_cast<double>(PaneReflectance(1.0f, kGlassIndex));
@@ -102,15 +103,16 @@ TEST(Pane, DimsTheSkyByItsMeanTransmittance) {
 }
 
 TEST(Pane, OfIndexOneIsNotThere) {
-  Scene with_air = MakeFacade({.frame_setback_m = 0.1});
+  Scene with_air = MakeFacade({.room_depth_m = 1.0});
   for (Material& material : with_air.materials) material.refractive_index = 1.0f;
-  const Scene without = MakeFacade({.frame_setback_m = 0.1, .glass = false});
-  const Lighting lighting = OnlySun(0.4, 0.6, 5e4);
+  const Scene without = MakeFacade({.room_depth_m = 1.0, .glass = false});
+  Lighting lighting = OnlySun(0.4, 0.6, 5e4);
+  lighting.sky.illuminance_lx = 1e4;
   // Only pixels at mirrored edges have other samples; their means agree to the sampling error.
   const cv::Mat1f a = Render(with_air, lighting);
   const cv::Mat1f b = Render(without, lighting);
   EXPECT_LT(cv::norm(a, b, cv::NORM_L1) / cv::norm(b, cv::NORM_L1), 1e-4);
-  EXPECT_GT(cv::norm(Render(MakeFacade({.frame_setback_m = 0.1}), lighting), b, cv::NORM_L1) /
+  EXPECT_GT(cv::norm(Render(MakeFacade({.room_depth_m = 1.0}), lighting), b, cv::NORM_L1) /
                 cv::norm(b, cv::NORM_L1),
             1e-3);
 }

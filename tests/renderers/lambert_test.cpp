@@ -22,7 +22,9 @@ cv::Mat RenderFrom(const RayCaster& caster, const Pose& X_WC, const Lighting& li
   return caster.Render(rays, X_WC, lighting, {.band = band}, RandomStream(1));
 }
 
-Pose Oblique() { return LookingAt({1.0, 0.6, 2.0}, {0.0, 0.0, 0.0}); }
+Pose Oblique() {
+  return LookingAt({1.0, 0.6, 2.0}, {0.0, 0.0, 0.0});
+}
 
 void ExpectUniform(const cv::Mat& image, double value) {
   double low = 0.0;
@@ -80,7 +82,7 @@ TEST(Radiance, ChannelsAreBlueGreenRedAndLuminanceIsTheirRec709Sum) {
 }
 
 TEST(Radiance, IsLinearInEachLight) {
-  const RayCaster caster(MakeFacade({.frame_setback_m = 0.1}));
+  const RayCaster caster(MakeFacade({.frame_setback_m = 0.1, .room_depth_m = 1.0}));
   const Lighting sun = OnlySun(0.5, 0.6, 5e4);
   const Lighting sky = OnlySky(1e4, 0.2);
   Lighting both = sky;
@@ -115,7 +117,7 @@ TEST(SunShadow, OfTheRevealOnTheFrameFollowsTheGeometry) {
   constexpr double kSetback = 0.12;
   const Lighting lighting = OnlySun(0.5, 0.6, 5e4);
   const Eigen::Vector3d to_sun = lighting.sun.Direction_W();
-  const RayCaster caster(MakeFacade({.frame_setback_m = kSetback}));
+  const RayCaster caster(MakeFacade({.frame_setback_m = kSetback, .room_depth_m = 1.0}));
   const RayGrid rays(DistortedCamera());
   const Pose X_WC = FacingTheWall({0.05, 0.02, 1.0});
   const AovImages aovs = caster.CastAovs(rays, X_WC, lighting, {});

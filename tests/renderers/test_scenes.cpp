@@ -3,9 +3,8 @@
 namespace fenestra {
 
 Material Grey(float reflectance) {
-  return {.name = "grey",
-          .reflectance_rgb = glm::vec3(reflectance),
-          .reflectance_830nm = reflectance};
+  return {
+      .name = "grey", .reflectance_rgb = glm::vec3(reflectance), .reflectance_830nm = reflectance};
 }
 
 Mesh Polygon(const std::vector<glm::vec3>& corners_W, uint32_t material) {
@@ -45,9 +44,8 @@ CameraModel DistortedCamera() {
 
 Lighting OnlySun(double azimuth_rad, double elevation_rad, double illuminance_lx) {
   Lighting lighting;
-  lighting.sun = {.azimuth_rad = azimuth_rad,
-                  .elevation_rad = elevation_rad,
-                  .illuminance_lx = illuminance_lx};
+  lighting.sun = {
+      .azimuth_rad = azimuth_rad, .elevation_rad = elevation_rad, .illuminance_lx = illuminance_lx};
   lighting.sky.illuminance_lx = 0.0;
   return lighting;
 }

@@ -18,13 +18,15 @@ Scene OneTriangle() {
   return scene;
 }
 
-TEST(Scene, AWellFormedOneIsAccepted) { EXPECT_NO_THROW(Validate(OneTriangle())); }
+TEST(Scene, AWellFormedOneIsAccepted) {
+  EXPECT_NO_THROW(Validate(OneTriangle()));
+}
 
 TEST(Scene, AllFaultsAreReportedAtOnce) {
   Scene scene = OneTriangle();
   scene.materials[0].reflectance_rgb.g = 1.01f;
-  scene.materials.push_back({.name = "thin air", .kind = Material::Kind::kGlass,
-                             .refractive_index = 0.5f});
+  scene.materials.push_back(
+      {.name = "thin air", .kind = Material::Kind::kGlass, .refractive_index = 0.5f});
   scene.meshes[0].positions_W[1].x = std::numeric_limits<float>::quiet_NaN();
   scene.meshes[0].triangles.push_back({0, 1, 3});
   scene.meshes[0].material = 2;

@@ -44,9 +44,9 @@ std::map<std::pair<Corner, Corner>, int> EdgeBalance(const Mesh& mesh) {
 double EnclosedVolume(const Mesh& mesh) {
   double six_volumes = 0.0;
   for (const glm::uvec3& t : mesh.triangles) {
-    six_volumes += glm::dot(glm::dvec3(mesh.positions_W[t.x]),
-                            glm::cross(glm::dvec3(mesh.positions_W[t.y]),
-                                       glm::dvec3(mesh.positions_W[t.z])));
+    six_volumes +=
+        glm::dot(glm::dvec3(mesh.positions_W[t.x]),
+                 glm::cross(glm::dvec3(mesh.positions_W[t.y]), glm::dvec3(mesh.positions_W[t.z])));
   }
   return six_volumes / 6.0;
 }

@@ -53,7 +53,9 @@ TEST(PaperTarget, WithoutTargetIsABareWall) {
 
 TEST(PaperTarget, AllFaultsAreReportedAtOnce) {
   try {
-    MakePaperTarget({.width_m = 13.0, .border_m = -0.1, .wall_reflectance = 1.2,
+    MakePaperTarget({.width_m = 13.0,
+                     .border_m = -0.1,
+                     .wall_reflectance = 1.2,
                      .frame_reflectance = std::numeric_limits<double>::quiet_NaN()});
     FAIL() << "accepted";
   } catch (const InputError& error) {
@@ -78,11 +80,12 @@ TEST(Facade, TheTargetIsTheFramesFrontOuterRectangle) {
   ASSERT_TRUE(scene.target);
   EXPECT_EQ(scene.target->Centroid_W(), Eigen::Vector3d(0.0, 0.0, -0.15));
   const Mesh& frame = *Find(scene, "frame");
-  const auto [back, front] = std::ranges::minmax(
-      frame.positions_W, {}, [](const glm::vec3& p) { return p.z; });
+  const auto [back, front] =
+      std::ranges::minmax(frame.positions_W, {}, [](const glm::vec3& p) { return p.z; });
   EXPECT_EQ(front.z, -0.15f);
   EXPECT_EQ(back.z, -0.21f);  // A frame is 0.06 m deep.
-  const auto right = std::ranges::max(frame.positions_W, {}, [](const glm::vec3& p) { return p.x; });
+  const auto right =
+      std::ranges::max(frame.positions_W, {}, [](const glm::vec3& p) { return p.x; });
   EXPECT_EQ(right.x, 0.6f);
 }
 
@@ -97,7 +100,9 @@ TEST(Facade, GlassAndTargetCanBeLeftOut) {
 
 TEST(Facade, AllFaultsAreReportedAtOnce) {
   try {
-    MakeFacade({.frame_width_m = 0.5, .frame_setback_m = 0.25, .wall_width_m = 1.0,
+    MakeFacade({.frame_width_m = 0.5,
+                .frame_setback_m = 0.25,
+                .wall_width_m = 1.0,
                 .room_reflectance = -0.1});
     FAIL() << "accepted";
   } catch (const InputError& error) {

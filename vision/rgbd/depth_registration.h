@@ -32,8 +32,10 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration);
 ///
 ///     p_K = X_KD (z r_D),   r_D = (x, y, 1) the ray of the pixel in D,
 ///
-/// and rounded to the nearest pixel there; of several, the nearest z wins. Where D already is the
-/// working camera and X_KD the identity, both images are taken as they are.
+/// and rounded to the nearest pixel there; of several, the nearest z wins. If K is
+/// rolled against D, a few pixels stay empty, as a turned grid of points misses some cells of the
+/// other: 0.8 % of a Kinect's at 0.03 rad. Where D already is the working camera and X_KD the
+/// identity, both images are taken as they are.
 class DepthRegistration {
  public:
   explicit DepthRegistration(const RgbdCalibration& calibration);

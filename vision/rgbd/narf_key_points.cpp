@@ -4,6 +4,8 @@
 #include <pcl/keypoints/narf_keypoint.h>
 #include <pcl/range_image/range_image_planar.h>
 
+#include <algorithm>
+
 #include "core/check.h"
 
 namespace fenestra {
@@ -23,7 +25,7 @@ void FillLookupTables() {
 
 // Pixel (n u, n v) becomes (u, v), so that principal point and focal lengths are divided by n.
 cv::Mat1f EveryNth(const cv::Mat1f& image, int n) {
-  cv::Mat1f thinned((image.rows + n - 1) / n, (image.cols + n - 1) / n);
+  cv::Mat1f thinned(std::max(1, image.rows / n), std::max(1, image.cols / n));
   for (int v = 0; v < thinned.rows; ++v) {
     for (int u = 0; u < thinned.cols; ++u) thinned(v, u) = image(n * v, n * u);
   }
@@ -58,6 +60,7 @@ NarfRangeImage::NarfRangeImage(const cv::Mat1f& depth_m, const CameraModel& came
 NarfRangeImage::~NarfRangeImage() = default;
 
 std::vector<KeyPoint> NarfRangeImage::DetectKeyPoints(const NarfSettings& settings) const {
+  FENESTRA_CHECK(settings.support_size_m > 0.0, "NARF needs a support size");
   const pcl::RangeImagePlanar& image = impl_->range_image;
   pcl::RangeImageBorderExtractor borders;
   borders.getParameters().max_no_of_threads = 1;

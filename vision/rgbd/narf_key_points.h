@@ -16,8 +16,8 @@ struct KeyPoint {
 };
 
 struct NarfSettings {
-  double support_size_m = 0.2;  ///< Diameter of the surface patch that is judged.
-  double min_interest_value = 0.45;
+  double support_size_m;      ///< Diameter of the surface patch that is judged; positive.
+  double min_interest_value;  ///< From 0 to 1.
 };
 
 /// Algorithm 2 of the paper: a range image of a cloud, and NARF key points on it (B. Steder,
@@ -42,7 +42,7 @@ class NarfRangeImage {
                  bool unseen_is_far);
   ~NarfRangeImage();
 
-  /// One thread; strongest first. Cost grows with the support size in pixels.
+  /// In one thread. Cost grows with the square of the support size in pixels.
   std::vector<KeyPoint> DetectKeyPoints(const NarfSettings& settings) const;
 
   /// Whether a camera is in the domain of the constructor.

@@ -21,10 +21,11 @@ cv::Mat1b DetectEdges(const cv::Mat1b& depth_gray, const CannyThresholds& thresh
 }
 
 std::optional<std::vector<cv::Point>> LargestClosedContour(const cv::Mat1b& edges) {
-  // Where two edges meet, non-maximum suppression may leave a gap of a pixel or two.
+  // Where two edges meet, non-maximum suppression may leave a gap of a few pixels. A
+  // closing fills it and moves nothing of a convex outline.
   cv::Mat1b joined;
   cv::morphologyEx(edges, joined, cv::MORPH_CLOSE,
-                   cv::getStructuringElement(cv::MORPH_RECT, {3, 3}));
+                   cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(joined, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE,
                    {-kEdgeRim_px, -kEdgeRim_px});

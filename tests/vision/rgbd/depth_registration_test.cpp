@@ -51,7 +51,9 @@ TEST(DepthRegistration, OfRegisteredDepthIsTheIdentity) {
   EXPECT_EQ(cv::norm(images.color, observation.color, cv::NORM_INF), 0.0);
   for (int v = 0; v < 480; ++v) {
     for (int u = 0; u < 640; ++u) {
-      ASSERT_EQ(images.depth_m(v, u), static_cast<float>(observation.depth.raw(v, u) * 0.001));
+      // One product in single precision.
+      ASSERT_FLOAT_EQ(images.depth_m(v, u),
+                      0.001f * static_cast<float>(observation.depth.raw(v, u)));
     }
   }
 }
@@ -85,7 +87,18 @@ TEST(DepthRegistration, CarriesAPlaneToItsDepthInTheColourCamera) {
       ASSERT_NEAR(depth_m(v, u), expected_m(v, u), bound_m) << u << ' ' << v;
     }
   }
-  EXPECT_EQ(holes, 0);  // The working pixels are coarser than the depth pixels.
+  // The grids are rolled by 0.03 rad against each other, which leaves about 0.8 % empty.
+  EXPECT_LT(holes, 0.016 * 280 * 200);
+}
+
+TEST(DepthRegistration, OfParallelCamerasLeavesNoHoles) {
+  const RgbdCalibration calibration = KinectCalibration();
+  RgbdObservation observation = RandomObservation(calibration);
+  observation.depth.raw = 2000;
+  const cv::Mat1f depth_m = DepthRegistration(calibration).Register(observation).depth_m;
+  // Far enough from the borders, where the colour camera sees what the depth camera does not.
+  const cv::Mat1f seen = depth_m(cv::Rect(20, 20, 280, 200));
+  EXPECT_EQ(cv::countNonZero(seen == 2.0f), 280 * 200);
 }
 
 TEST(DepthRegistration, KeepsTheNearestOfSeveralPoints) {

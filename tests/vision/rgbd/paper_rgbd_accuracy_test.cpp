@@ -166,7 +166,7 @@ TEST(PaperRgbdAccuracy, MirroredSceneMirrorsTheEstimate) {
   Look look{.distance_m = 2.0, .azimuth_rad = kTenDegrees, .yaw_rad = 0.05};
   const SyntheticKinect scene{.target = {}, .X_DO = PoseOfWindow(look)};
   const RgbdObservation observation = Observe(calibration, scene, RandomStream(8));
-  RgbdObservation mirrored = observation;
+  RgbdObservation mirrored;
   cv::flip(observation.color, mirrored.color, 1);
   cv::flip(observation.depth.raw, mirrored.depth.raw, 1);
   const auto detection = DetectOnce(calibration, observation);
@@ -179,7 +179,9 @@ TEST(PaperRgbdAccuracy, MirroredSceneMirrorsTheEstimate) {
   // pixels, which moves a vertex by up to a quarter of NARF's reach before noise.
   const Eigen::Vector3d flipped(-mirror.p_CO.x(), mirror.p_CO.y(), mirror.p_CO.z());
   EXPECT_LT((flipped - estimate.p_CO).norm(), 0.25 * 0.1);
-  EXPECT_LT(std::abs(mirror.normal_C.x() + estimate.normal_C.x()), 1e-6);
+  // The triples that propose the plane differ, and with them which points at the tolerance's edge
+  // count: a part of the normal's standard error, σ_z / (0.4 m √N) = 8e-5 for N = 3e4.
+  EXPECT_LT(std::abs(mirror.normal_C.x() + estimate.normal_C.x()), 5.0 * 8e-5);
 }
 
 TEST(PaperRgbdAccuracy, DarkThingOffTheFramesPlaneIsPassedOver) {

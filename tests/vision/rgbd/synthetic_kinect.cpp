@@ -35,7 +35,7 @@ RgbdObservation Observe(const RgbdCalibration& calibration, const SyntheticKinec
   RgbdObservation observation;
   observation.depth.unit_m = calibration.depth_unit_m;
   const Pose X_KO = calibration.X_KD * scene.X_DO;
-  const cv::Mat1f coverage = BorderCoverage(calibration.color, X_KO, scene.target, 4);
+  const cv::Mat1f coverage = BorderCoverage(calibration.color, X_KO, scene.target, 2);
   observation.color.create(coverage.size());
   for (int v = 0; v < coverage.rows; ++v) {
     for (int u = 0; u < coverage.cols; ++u) {
