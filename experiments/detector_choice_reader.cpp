@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/did_you_mean.h"
+#include "experiments/factor_reader.h"
 
 namespace fenestra {
 namespace {
@@ -107,7 +108,7 @@ DetectorChoice DefaultChoice(const DetectorInfo& detector) {
   DetectorChoice choice{
       .label = detector.name, .name = detector.name, .sensor = detector.sensor, .options = {}};
   for (const ParameterInfo& option : detector.options) {
-    choice.options[option.name] = option.default_value;
+    choice.options[option.name] = WrittenDefault(option);
   }
   return choice;
 }

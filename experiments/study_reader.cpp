@@ -176,10 +176,7 @@ class StudyReader {
     for (const GivenFactor& given : draft.own.factors) place(given);
     for (const ParameterInfo& info : Factors().infos()) {
       if (placed.contains(info.name)) continue;
-      const double* number = std::get_if<double>(&info.default_value);
-      // 40.1 degrees, not the 40.100000000000001 that radians make of them.
-      part.factors.push_back({info.name, Levels{number ? ParameterValue(RoundTo12Digits(*number))
-                                                       : info.default_value}});
+      part.factors.push_back({info.name, Levels{WrittenDefault(info)}});
     }
     std::vector<Factor> effective;
     std::copy_if(part.factors.begin(), part.factors.end(), std::back_inserter(effective),

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "renderers/film.h"
 #include "renderers/net_samples.h"
 
 namespace fenestra {
@@ -13,21 +13,11 @@ namespace {
 
 constexpr int kMostChannels = LightTransport::kMostChannels;
 
-// Among its samples a pixel has seen different things. No side has this key.
-constexpr uint32_t kMixed = ~0u;
+// An edge pixel whose first samples all see the same is left at these: the edge cuts off less than
+// one part in 64, and so seldom that it does not count.
+constexpr int kProbe = 64;
 
-struct Pixel {
-  int column;
-  int row;
-};
-
-// What the samples of one pixel told: their mean, and what they have seen.
-struct PixelResult {
-  std::array<float, kMostChannels> radiance{};
-  uint32_t key = 0;
-};
-
-PixelPatch PatchOf(const RayGrid& rays, Pixel pixel) {
+PixelPatch PatchOf(const RayGrid& rays, Film::Pixel pixel) {
   const Eigen::Vector2f& c00 = rays.Corner(pixel.column, pixel.row);
   const Eigen::Vector2f& c10 = rays.Corner(pixel.column + 1, pixel.row);
   const Eigen::Vector2f& c01 = rays.Corner(pixel.column, pixel.row + 1);
@@ -47,13 +37,15 @@ class Sampler {
   Sampler(const LightTransport& light, const RayGrid& rays, const FloatPose& camera, uint64_t key)
       : light_(light), rays_(rays), camera_(camera), key_(key) {}
 
-  // A multiple of 16 samples of one pixel.
-  PixelResult SampleDensely(Pixel pixel, int samples) const {
+  // A multiple of 16 samples of one pixel; fewer if the first `probe` of them see only one thing.
+  Film::PixelResult SampleDensely(Film::Pixel pixel, int samples, int probe) const {
     const PixelPatch patch = PatchOf(rays_, pixel);
     const NetPoint scramble = Scramble(pixel);
     std::array<Lanes<float>, kMostChannels> sums{};
-    PixelResult result;
-    for (int first = 0; first < samples; first += kLanes) {
+    Film::PixelResult result;
+    int taken = 0;
+    while (taken < samples && !(taken >= probe && result.key != Film::kMixed)) {
+      const int first = taken;
       const ImagePoints points =
           SamplePatch(patch, &kNetTable.x[static_cast<size_t>(first)],
                       &kNetTable.y[static_cast<size_t>(first)], scramble.x, scramble.y);
@@ -63,20 +55,21 @@ class Sampler {
       }
       if (first == 0) result.key = arriving.key[0];
       for (int i = 0; i < kLanes; ++i) {
-        if (arriving.key[i] != result.key) result.key = kMixed;
+        if (arriving.key[i] != result.key) result.key = Film::kMixed;
       }
+      taken += kLanes;
     }
     for (size_t c = 0; c < Channels(); ++c) {
       double sum = 0.0;
       for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(sums[c][i]);
-      result.radiance[c] = static_cast<float>(sum / samples);
+      result.radiance[c] = static_cast<float>(sum / taken);
     }
     return result;
   }
 
   // 1 or 4 samples of each of 16 or 4 pixels; the first `count` of them are wanted.
-  std::array<PixelResult, kLanes> SampleSparsely(const std::array<Pixel, kLanes>& pixels, int count,
-                                                 int samples) const {
+  std::array<Film::PixelResult, kLanes> SampleSparsely(
+      const std::array<Film::Pixel, kLanes>& pixels, int count, int samples) const {
     ImagePoints points;
     for (int p = 0; p < count; ++p) {
       const PixelPatch patch = PatchOf(rays_, pixels[static_cast<size_t>(p)]);
@@ -91,12 +84,12 @@ class Sampler {
     }
     const LightTransport::Arriving arriving = Trace(FirstLanes(count * samples), points);
     const float weight = 1.0f / static_cast<float>(samples);
-    std::array<PixelResult, kLanes> results;
+    std::array<Film::PixelResult, kLanes> results;
     for (int p = 0; p < count; ++p) {
-      PixelResult& result = results[static_cast<size_t>(p)];
+      Film::PixelResult& result = results[static_cast<size_t>(p)];
       result.key = arriving.key[p * samples];
       for (int i = p * samples; i < (p + 1) * samples; ++i) {
-        if (arriving.key[i] != result.key) result.key = kMixed;
+        if (arriving.key[i] != result.key) result.key = Film::kMixed;
       }
       for (size_t c = 0; c < Channels(); ++c) {
         float sum = 0.0f;
@@ -110,7 +103,7 @@ class Sampler {
  private:
   size_t Channels() const { return static_cast<size_t>(light_.channel_count()); }
 
-  NetPoint Scramble(Pixel pixel) const {
+  NetPoint Scramble(Film::Pixel pixel) const {
     return ScrambleOf(key_,
                       static_cast<uint64_t>(pixel.row) * static_cast<uint64_t>(rays_.width_px()) +
                           static_cast<uint64_t>(pixel.column));
@@ -128,63 +121,12 @@ class Sampler {
   uint64_t key_;
 };
 
-// The image under construction, and what each pixel has seen.
-class Film {
- public:
-  Film(int width_px, int height_px, int channels)
-      : radiance_(height_px, width_px, CV_MAKETYPE(CV_32F, channels)),
-        keys_(height_px, width_px),
-        channels_(channels) {}
-
-  void Set(Pixel pixel, const PixelResult& result) {
-    float* out = radiance_.ptr<float>(pixel.row) + pixel.column * channels_;
-    for (int c = 0; c < channels_; ++c) out[c] = result.radiance[static_cast<size_t>(c)];
-    keys_(pixel.row, pixel.column) = static_cast<int>(result.key);
-  }
-
-  // 255 where a pixel or one of its eight neighbours is mixed or has seen something else.
-  cv::Mat1b Edges() const {
-    const int mixed = static_cast<int>(kMixed);
-    cv::Mat1b meets(keys_.size(), uchar{0});
-    for (int row = 0; row < keys_.rows; ++row) {
-      for (int column = 0; column < keys_.cols; ++column) {
-        const int key = keys_(row, column);
-        if (key == mixed) {
-          MarkAround(meets, {column, row});
-          continue;
-        }
-        // The neighbours before this pixel; those after it will look back.
-        for (const auto& [dx, dy] : {std::pair{-1, 0}, {-1, -1}, {0, -1}, {1, -1}}) {
-          const int x = column + dx;
-          const int y = row + dy;
-          if (x < 0 || y < 0 || x >= keys_.cols || keys_(y, x) == key) continue;
-          meets(row, column) = 255;
-          meets(y, x) = 255;
-        }
-      }
-    }
-    return meets;
-  }
-
-  cv::Mat TakeRadiance() { return std::move(radiance_); }
-
- private:
-  static void MarkAround(cv::Mat1b& marks, Pixel pixel) {
-    const cv::Rect around(pixel.column - 1, pixel.row - 1, 3, 3);
-    marks(around & cv::Rect(0, 0, marks.cols, marks.rows)) = uchar{255};
-  }
-
-  cv::Mat radiance_;
-  cv::Mat1i keys_;
-  int channels_;
-};
-
 // Few samples per pixel: packets of square blocks of pixels, cut at the image's border.
 void SampleBlocks(const Sampler& sampler, int samples, const cv::Size& size, Film& film) {
   const int side = samples == 1 ? 4 : 2;
   for (int top = 0; top < size.height; top += side) {
     for (int left = 0; left < size.width; left += side) {
-      std::array<Pixel, kLanes> pixels;
+      std::array<Film::Pixel, kLanes> pixels;
       int count = 0;
       for (int row = top; row < std::min(top + side, size.height); ++row) {
         for (int column = left; column < std::min(left + side, size.width); ++column) {
@@ -199,9 +141,9 @@ void SampleBlocks(const Sampler& sampler, int samples, const cv::Size& size, Fil
   }
 }
 
-void SamplePixel(const Sampler& sampler, int samples, Pixel pixel, Film& film) {
+void SamplePixel(const Sampler& sampler, int samples, int probe, Film::Pixel pixel, Film& film) {
   if (samples >= kLanes) {
-    film.Set(pixel, sampler.SampleDensely(pixel, samples));
+    film.Set(pixel, sampler.SampleDensely(pixel, samples, probe));
   } else {
     film.Set(pixel, sampler.SampleSparsely({pixel}, 1, samples)[0]);
   }
@@ -237,7 +179,8 @@ cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const Floa
   } else {
     for (int row = 0; row < size.height; ++row) {
       for (int column = 0; column < size.width; ++column) {
-        SamplePixel(sampler, options.samples_per_pixel, {column, row}, film);
+        SamplePixel(sampler, options.samples_per_pixel, options.samples_per_pixel, {column, row},
+                    film);
       }
     }
   }
@@ -246,7 +189,7 @@ cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const Floa
     for (int row = 0; row < size.height; ++row) {
       for (int column = 0; column < size.width; ++column) {
         if (edges(row, column) == 0) continue;
-        SamplePixel(sampler, options.edge_samples_per_pixel, {column, row}, film);
+        SamplePixel(sampler, options.edge_samples_per_pixel, kProbe, {column, row}, film);
       }
     }
   }

@@ -4,70 +4,19 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
+
+#include "renderers/hemisphere.h"
 
 namespace fenestra {
 namespace {
 
 using glm::vec3;
 
-// Cells of the hemisphere per side of the square that is mapped to it.
-constexpr int kCells = 32;
-// Rays of a packet form a square of cells, or of parts of one cell.
-constexpr int kSquare = 4;
-static_assert(kSquare * kSquare == kLanes);
 // Transmittances that differ by more than this end differently; what a pane does varies less.
 constexpr float kSameTransmittance = 0.1f;
 // Corners are moved this part of the way into their faces: on the edge itself, a ray into the
 // neighbouring solid would start on that solid's surface and might miss it.
 constexpr float kInwards = 0.02f;
-
-// Cosine-weighted directions about +z from uniform (a, b) in (-1, 1)²: Malley's method with the
-// concentric map from square to disc, which keeps cells compact. Source: P. Shirley and K. Chiu,
-// "A low distortion map between disk and square", 1997.
-vec3 CosineDirection(float a, float b) {
-  constexpr float kQuarterPi = std::numbers::pi_v<float> / 4.0f;
-  const bool a_is_radius = std::abs(a) > std::abs(b);
-  const float r = a_is_radius ? a : b;
-  const float ratio = r == 0.0f ? 0.0f : (a_is_radius ? b : a) / r;
-  const float phi = a_is_radius ? kQuarterPi * ratio : kQuarterPi * (2.0f - ratio);
-  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(1.0f - r * r, 0.0f))};
-}
-
-// Sixteen directions: the centres of a 4 x 4 grid of squares of size `step`.
-using DirectionSquare = std::array<vec3, kLanes>;
-
-DirectionSquare MakeSquare(float a, float b, float step) {
-  DirectionSquare square;
-  for (int i = 0; i < kLanes; ++i) {
-    square[static_cast<size_t>(i)] =
-        CosineDirection(a + (static_cast<float>(i / kSquare) + 0.5f) * step,
-                        b + (static_cast<float>(i % kSquare) + 0.5f) * step);
-  }
-  return square;
-}
-
-// All directions, the same for every corner, so that their error varies smoothly.
-struct DirectionTable {
-  std::vector<DirectionSquare> tiles;  // Of 4 x 4 cells, row-major.
-  std::vector<DirectionSquare> cells;  // Row-major.
-};
-
-DirectionTable MakeDirectionTable() {
-  constexpr float kStep = 2.0f / kCells;
-  DirectionTable table;
-  for (int row = 0; row < kCells; ++row) {
-    for (int column = 0; column < kCells; ++column) {
-      const float a = -1.0f + static_cast<float>(row) * kStep;
-      const float b = -1.0f + static_cast<float>(column) * kStep;
-      table.cells.push_back(MakeSquare(a, b, kStep / kSquare));
-      if (row % kSquare == 0 && column % kSquare == 0) {
-        table.tiles.push_back(MakeSquare(a, b, kStep));
-      }
-    }
-  }
-  return table;
-}
 
 // One side of a surface at a corner.
 struct BakePoint {
@@ -118,13 +67,13 @@ class Baker {
   explicit Baker(const TracedScene& scene)
       : scene_(scene),
         offset_m_(scene.SurfaceOffset(vec3(0.0f))),
-        directions_(MakeDirectionTable()) {}
+        directions_(MakeHemisphereDirections()) {}
 
   SkyView ViewFrom(const BakePoint& point) const {
     const std::vector<Ending> coarse = CastTiles(point);
     ViewTally tally;
-    for (int row = 0; row < kCells; ++row) {
-      for (int column = 0; column < kCells; ++column) {
+    for (int row = 0; row < kHemisphereCells; ++row) {
+      for (int column = 0; column < kHemisphereCells; ++column) {
         const size_t cell = CellIndex(row, column);
         if (!OnBoundary(coarse, row, column)) {
           tally.Add(coarse[cell], static_cast<float>(kLanes));
@@ -138,17 +87,17 @@ class Baker {
 
  private:
   static size_t CellIndex(int row, int column) {
-    return static_cast<size_t>(row * kCells + column);
+    return static_cast<size_t>(row * kHemisphereCells + column);
   }
 
   std::vector<Ending> CastTiles(const BakePoint& point) const {
-    std::vector<Ending> endings(static_cast<size_t>(kCells * kCells));
+    std::vector<Ending> endings(static_cast<size_t>(kHemisphereCells * kHemisphereCells));
     size_t tile = 0;
-    for (int row = 0; row < kCells; row += kSquare) {
-      for (int column = 0; column < kCells; column += kSquare) {
+    for (int row = 0; row < kHemisphereCells; row += kDirectionSquare) {
+      for (int column = 0; column < kHemisphereCells; column += kDirectionSquare) {
         const auto found = Cast(point, directions_.tiles[tile++]);
         for (int i = 0; i < kLanes; ++i) {
-          endings[CellIndex(row + i / kSquare, column + i % kSquare)] =
+          endings[CellIndex(row + i / kDirectionSquare, column + i % kDirectionSquare)] =
               found[static_cast<size_t>(i)];
         }
       }
@@ -159,7 +108,7 @@ class Baker {
   static bool OnBoundary(const std::vector<Ending>& endings, int row, int column) {
     const Ending& here = endings[CellIndex(row, column)];
     const auto differs = [&](int r, int c) {
-      return r >= 0 && r < kCells && c >= 0 && c < kCells &&
+      return r >= 0 && r < kHemisphereCells && c >= 0 && c < kHemisphereCells &&
              here.DiffersFrom(endings[CellIndex(r, c)]);
     };
     return differs(row - 1, column) || differs(row + 1, column) || differs(row, column - 1) ||
@@ -193,7 +142,7 @@ class Baker {
 
   const TracedScene& scene_;
   float offset_m_;
-  DirectionTable directions_;
+  HemisphereDirections directions_;
 };
 
 // Whether no part of the scene lies before the plane through p with normal n.

@@ -6,8 +6,9 @@
 namespace fenestra {
 namespace {
 
-// A frame's far side must stay within reach of its near side: for a frame as wide as it is distant,
-// turned by 25°, depth changes by 2 · 21 %; seen from twice its width (or more) by 21 % at most.
+// A frame's far side must stay within reach of its near side. A frame of width s at distance z that
+// is turned by 25° changes in depth by s sin 25° from side to side: 21 % of z for z = 2 s, less
+// farther away.
 constexpr double kReach = 0.25;
 // One frame is looked for; a second chance for a scene where something taller stands elsewhere.
 constexpr int kMostSearches = 2;

@@ -1,6 +1,7 @@
 #include "vision/stereo/matched_patch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace fenestra {
@@ -24,11 +25,12 @@ MatchedPatch DescribePatch(const cv::Mat1i& labels, int label, const cv::Rect& b
   cv::convexHull(contours.front(), patch.hull);
   const cv::Mat1b usable = region & matched(box);
   patch.area_px = cv::countNonZero(usable);
-  const int stride = patch.area_px / kSamplesPerPatch + 1;
-  int count = 0;
-  for (int v = 0; v < box.height; ++v) {
-    for (int u = 0; u < box.width; ++u) {
-      if (usable(v, u) == 0 || count++ % stride != 0) continue;
+  // A grid, since every n-th pixel of a region n - 1 or n + 1 pixels wide is a slanted line.
+  const int step = std::max(
+      1, static_cast<int>(std::sqrt(patch.area_px / static_cast<double>(kSamplesPerPatch))));
+  for (int v = 0; v < box.height; v += step) {
+    for (int u = 0; u < box.width; u += step) {
+      if (usable(v, u) == 0) continue;
       patch.samples.push_back({static_cast<float>(box.x + u), static_cast<float>(box.y + v),
                                disparity(box.y + v, box.x + u)});
     }
@@ -62,7 +64,8 @@ std::vector<MatchedPatch> FindPatches(const cv::Mat1f& disparity, const PatchSet
   for (const int i : kept) {
     const cv::Rect box(stats(i, cv::CC_STAT_LEFT), stats(i, cv::CC_STAT_TOP),
                        stats(i, cv::CC_STAT_WIDTH), stats(i, cv::CC_STAT_HEIGHT));
-    patches.push_back(DescribePatch(labels, i, box, opened, disparity));
+    MatchedPatch patch = DescribePatch(labels, i, box, opened, disparity);
+    if (!patch.samples.empty()) patches.push_back(std::move(patch));
   }
   return patches;
 }

@@ -16,17 +16,18 @@ struct PaperStereoOptions {
   double nearest_m = 1.2;
   /// Where a 1 m frame is 44 px wide and a tenth of a pixel of disparity is 10 cm of depth.
   double farthest_m = 15.0;
-  /// The middle of the 5 to 21 px that Bradski and Kaehler name.
+  /// Within the 5 to 21 px that Bradski and Kaehler name; wide enough for both edges of a 0.1 m
+  /// border from 6 m on, small enough to leave the opening of a 1 m frame at 10 m free.
   int sad_window_px = 15;
-  /// With 0 about a fifth of the matches on a plain wall are wrong by more than a pixel; with 10 or
-  /// more few are. cv::StereoBM's customary value is 15, which costs a quarter of the true matches.
+  /// With 0 about a fifth of the matches on a plain wall are wrong by more than a pixel; with 10
+  /// few are.
   int uniqueness_percent = 10;
   /// cv::StereoBM's default; it stops matches where the images are perfectly constant.
   int texture_threshold = 10;
   /// An accidental match of one feature is at most as large as the SAD window.
   int speckle_area_px = 200;
   double speckle_step_px = 1.0;
-  /// Off: the uniqueness test finds nearly the same faults, and this costs a tenth more time.
+  /// Off, as the paper names no such check; the uniqueness test is meant for the same faults.
   bool left_right_check = false;
   /// Search again near what was found, see guided_matching.h. Without it a frame's right side is
   /// lost where its double is in range: 1 m frames beyond 4.6 m.
@@ -43,7 +44,7 @@ struct PaperStereoOptions {
   int gap_width_px = 5;
   /// 1 m at 33 m: more than twice the farthest depth.
   int min_band_height_px = 20;
-  /// Twice the error of a sound match (about 0.3 px where an edge is blurred and slanted).
+  /// Twelve steps of the matcher's 1/16 px: above its sub-pixel bias, below a wrong match.
   double plane_tolerance_px = 0.75;
   double min_inlier_share = 0.6;
   /// A side that is cut at one end by something in front of it still passes.

@@ -42,7 +42,7 @@ class StereoRectification {
 
  private:
   struct View {
-    cv::Mat map;  ///< cv::remap's fixed-point form: about three times as fast as floats.
+    cv::Mat map;  ///< In cv::remap's fixed-point form, the fast one.
     cv::Mat interpolation;
     cv::Mat1b seen;
   };
