@@ -53,8 +53,9 @@ RandomStream RandomStream::Child(std::string_view purpose, uint64_t index) const
 
 double RandomStream::Uniform(uint64_t index) const {
   const Philox::ctr_type words = Cipher(key_, index, 0, Use::kScalar);
-  const uint64_t bits = Join(words.v[0], words.v[1]) >> 11;
-  return (static_cast<double>(bits) + 0.5) * 0x1p-53;
+  // 52 bits and a half are exact in a double: neither 0 nor 1 can come out.
+  const uint64_t bits = Join(words.v[0], words.v[1]) >> 12;
+  return (static_cast<double>(bits) + 0.5) * 0x1p-52;
 }
 
 double RandomStream::Normal(uint64_t index) const {

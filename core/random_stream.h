@@ -20,7 +20,7 @@ class RandomStream {
   /// The stream for one purpose ("read_noise") and index (a replicate, a frame, a camera).
   RandomStream Child(std::string_view purpose, uint64_t index = 0) const;
 
-  /// Uniform in the open interval (0, 1), 53 bits.
+  /// Uniform in the open interval (0, 1), 52 bits.
   double Uniform(uint64_t index) const;
 
   /// Standard normal.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 
 namespace fenestra {
 
@@ -12,7 +13,7 @@ inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
 struct Sun {
   /// Above the horizon, in the facade's half space for a positive z.
   double azimuth_rad = 0.0;     ///< From the facade's normal (+Z) towards +X.
-  double elevation_rad = 0.7;   ///< Above the horizon.
+  double elevation_rad = 40.0 * std::numbers::pi / 180.0;  ///< Above the horizon.
   double illuminance_lx = 0.0;  ///< On a plane perpendicular to the rays; 0: no sun.
 
   /// Unit vector from the scene to the sun.

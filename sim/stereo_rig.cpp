@@ -9,8 +9,8 @@
 namespace fenestra {
 namespace {
 
+// Presumes positive lengths.
 CameraModel NominalCamera(const StereoRigOptions& options) {
-  Validate(options);
   const double f_px = options.focal_length_m / options.pixel_pitch_m;
   return CameraModel({.width_px = options.width_px,
                       .height_px = options.height_px,
@@ -19,6 +19,15 @@ CameraModel NominalCamera(const StereoRigOptions& options) {
                       .cx_px = 0.5 * (options.width_px - 1),
                       .cy_px = 0.5 * (options.height_px - 1),
                       .distortion = options.distortion});
+}
+
+bool DistortionIsInvertible(const CameraModel& camera) {
+  for (const double u : {-0.5, camera.width_px() - 0.5}) {
+    for (const double v : {-0.5, camera.height_px() - 0.5}) {
+      if (!camera.UnprojectRay({u, v})) return false;
+    }
+  }
+  return true;
 }
 
 Pose NominalLeft(double baseline_m) { return Pose::Translation({-0.5 * baseline_m, 0.0, 0.0}); }
@@ -51,11 +60,14 @@ void Validate(const StereoRigOptions& o) {
                      o.exposure.shortest_s, o.exposure.longest_s));
   demand(o.rotation_tolerance_rad >= 0.0 && o.translation_tolerance_m >= 0.0,
          "tolerances must not be negative");
+  if (faults.empty() && !DistortionIsInvertible(NominalCamera(o))) {
+    demand(false, "the distortion folds the image over before its corners");
+  }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
 StereoRig::StereoRig(const StereoRigOptions& options)
-    : options_(options),
+    : options_((Validate(options), options)),
       nominal_{.left = NominalCamera(options),
                .right = NominalCamera(options),
                .X_RL = NominalRight(options.baseline_m).inverse() * NominalLeft(options.baseline_m)},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include "core/calibration.h"
 #include "core/observation.h"
@@ -44,7 +45,7 @@ struct StructuredLightOptions {
   double saturation_dn = 1023.0;        ///< 10 bits.
   /// A 9 x 9 window holds 9 dots: its evidence is √9 times a dot's. Matched when it exceeds this.
   double matching_snr = 3.5;
-  double grazing_limit_rad = 1.309;     ///< 75°: between the 70° and 80° that users report.
+  double grazing_limit_rad = 75.0 * std::numbers::pi / 180.0;  ///< Between the 70° and 80° that users report.
   /// Peak irradiance of a dot at 1 m [W/m²]: 60 mW spread over the field of view, 11 % of it dots.
   double dot_irradiance = 0.574;
   /// Full width of the infra-red filter [nm]: how much ambient light competes with the dots.

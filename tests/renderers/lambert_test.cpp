@@ -111,6 +111,20 @@ TEST(Radiance, OfARayThatHitsNothingIsSkyOrGround) {
   EXPECT_FLOAT_EQ(image.at<float>(239, 50), static_cast<float>(0.25 * 1e4 / kPi));
 }
 
+TEST(Radiance, OfASheetsBackIsThatOfItsFront) {
+  Scene scene;
+  scene.materials = {Grey(0.6f)};
+  scene.meshes = {UprightRectangle(-50, -50, 50, 50, 0.0f, 0)};
+  Scene reversed = scene;
+  for (glm::uvec3& t : reversed.meshes[0].triangles) std::swap(t.y, t.z);
+  Lighting lighting = OnlySun(0.4, 0.7, 5e4);
+  lighting.sky.illuminance_lx = 1e4;
+  const double E =
+      5e4 * lighting.sun.Direction_W().z() + 1e4 * 0.5 * (1.0 + lighting.sky.ground_reflectance);
+  ExpectUniform(RenderFrom(RayCaster(scene), Oblique(), lighting), 0.6 / kPi * E);
+  ExpectUniform(RenderFrom(RayCaster(reversed), Oblique(), lighting), 0.6 / kPi * E);
+}
+
 // On the frame, which stands `setback` behind the wall, the light from the sun passes the plane
 // z = 0 displaced by setback · (dx, dy)/dz: a point is lit exactly if it does so in the opening.
 TEST(SunShadow, OfTheRevealOnTheFrameFollowsTheGeometry) {

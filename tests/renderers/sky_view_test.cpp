@@ -5,8 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderers/ray_caster.h"
 #include "scenes/facade.h"
 #include "scenes/paper_target.h"
+#include "scenes/solid_lattice.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {
@@ -60,6 +62,32 @@ TEST(SkyView, BehindAPlateLosesThePlatesViewFactor) {
     const double below = 2.0 * CornerViewFactor(0.5, 0.3, distance);
     EXPECT_NEAR(views[0][0].sky, 0.5 - above, kBakingError) << distance;
     EXPECT_NEAR(views[0][0].ground, 0.5 - below, kBakingError) << distance;
+  }
+}
+
+// A wall of 0.1 m cells under a plate, seen from between them: what is baked at the cells' corners
+// is interpolated to the right places.
+TEST(SkyView, IsInterpolatedBetweenCorners) {
+  const std::vector<float> breaks = GradedBreaks({-1.0, 1.0}, [](double) { return 0.13; });
+  SolidLattice lattice({breaks, breaks, {-1.0f, 0.0f}});
+  lattice.Fill({{-1, -1, -1}, {1, 1, 0}}, 1);
+  Scene scene;
+  scene.materials = {Grey(1.0f)};
+  scene.meshes = {lattice.Surface(1, SolidLattice::Faces::kFrontOfLattice, "wall", 0),
+                  UprightRectangle(-0.5f, -0.5f, 0.5f, 0.5f, 1.0f, 0)};
+  const RayGrid rays(CameraModel::Pinhole(160, 160, 120.0));
+  const double z = 0.6;
+  const cv::Mat image = RayCaster(scene).Render(rays, FacingTheWall({0, 0, z}), OnlySky(1e4, 0.0),
+                                                {}, RandomStream(1));
+  for (int v = 0; v < 160; v += 3) {
+    for (int u = 0; u < 160; u += 3) {
+      const double x = (u - 79.5) / 120.0 * z;
+      const double y = -(v - 79.5) / 120.0 * z;
+      const double sky =
+          0.5 - CornerViewFactor(0.5 - x, 0.5 - y, 1.0) - CornerViewFactor(0.5 + x, 0.5 - y, 1.0);
+      // Linear interpolation errs by h²/8 times the curvature, at most about 1/m²: 0.002.
+      EXPECT_NEAR(image.at<float>(v, u) * std::numbers::pi / 1e4, sky, kBakingError + 0.002);
+    }
   }
 }
 

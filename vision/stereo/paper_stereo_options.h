@@ -22,8 +22,10 @@ struct PaperStereoOptions {
   /// With 0 about a fifth of the matches on a plain wall are wrong by more than a pixel; with 10
   /// few are.
   int uniqueness_percent = 10;
-  /// cv::StereoBM's default; it stops matches where the images are perfectly constant.
-  int texture_threshold = 10;
+  /// Sum over the window of the pre-filtered image's departure from flat. An edge of 8 DN and more
+  /// has 465 for each column of the window that it fills; the 8-bit steps of a smoothly shaded wall
+  /// have up to 400 and would match anywhere; a camera's noise has more, but is not unique.
+  int texture_threshold = 500;
   /// An accidental match of one feature is at most as large as the SAD window.
   int speckle_area_px = 200;
   double speckle_step_px = 1.0;
