@@ -22,7 +22,8 @@ std::vector<double> ReadMatrix(YamlReader& reader, const std::string& name, size
   const YAML::Node node = reader.root()[name];
   std::vector<double> fallback(rows * cols, 0.0);
   if (!node.IsDefined()) {
-    reader.AddFault(reader.root(), fmt::format("{} is missing: a {} x {} matrix", name, rows, cols));
+    reader.AddFault(reader.root(),
+                    fmt::format("{} is missing: a {} x {} matrix", name, rows, cols));
     return fallback;
   }
   if (!node.IsMap() || !node["data"].IsDefined()) {
@@ -42,8 +43,8 @@ BrownConrady ReadDistortion(YamlReader& reader, const YAML::Node& data, const st
   const auto values = reader.Numbers(data, name);
   if (!values) return {};
   if (values->size() < 4) {
-    reader.AddFault(data, fmt::format("{} must have at least 4 numbers, not {}", name,
-                                      values->size()));
+    reader.AddFault(data,
+                    fmt::format("{} must have at least 4 numbers, not {}", name, values->size()));
     return {};
   }
   for (size_t i = 5; i < values->size(); ++i) {
@@ -92,14 +93,15 @@ CameraModel ReadCamera(YamlReader& reader, const std::string& size_prefix, const
   const YAML::Node D_node = reader.root()[D];
   const YAML::Node D_data = D_node.IsMap() ? D_node["data"] : D_node;
   const BrownConrady distortion = ReadDistortion(reader, D_data, D);
-  return CameraModel(FromMatrix(reader, reader.root()[K], K, width_px, height_px, matrix,
-                                distortion));
+  return CameraModel(
+      FromMatrix(reader, reader.root()[K], K, width_px, height_px, matrix, distortion));
 }
 
 Pose ReadPose(YamlReader& reader) {
   const std::vector<double> R = ReadMatrix(reader, "R", 3, 3);
   const std::vector<double> T = ReadMatrix(reader, "T", 3, 1);
-  const Matrix3d rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
+  const Matrix3d rotation =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
   const double deviation = (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
   if (reader.faulty()) return Pose();
   if (!(deviation < 1e-5) || !(rotation.determinant() > 0.0)) {
@@ -215,14 +217,14 @@ CameraModel ReadCameraInfo(const std::filesystem::path& file) {
   const std::vector<double> K = ReadMatrix(reader, "camera_matrix", 3, 3);
   const YAML::Node model = reader.root()["distortion_model"];
   if (model.IsDefined() && model.IsScalar() && model.Scalar() != "plumb_bob") {
-    reader.AddFault(model, "distortion_model must be plumb_bob, not " + YamlReader::Describe(model));
+    reader.AddFault(model,
+                    "distortion_model must be plumb_bob, not " + YamlReader::Describe(model));
   }
   const YAML::Node D = reader.root()["distortion_coefficients"];
   const BrownConrady distortion =
       ReadDistortion(reader, D.IsMap() ? D["data"] : D, "distortion_coefficients");
-  const CameraParameters parameters =
-      FromMatrix(reader, reader.root()["camera_matrix"], "camera_matrix", width_px, height_px, K,
-                 distortion);
+  const CameraParameters parameters = FromMatrix(
+      reader, reader.root()["camera_matrix"], "camera_matrix", width_px, height_px, K, distortion);
   reader.ThrowIfFaulty();
   return CameraModel(parameters);
 }

@@ -75,8 +75,8 @@ void Validate(const CameraParameters& p) {
          fmt::format("focal lengths {} and {} px are not positive", p.fx_px, p.fy_px));
   demand(std::isfinite(p.cx_px) && std::isfinite(p.cy_px), "principal point is not finite");
   const BrownConrady& d = p.distortion;
-  demand(std::isfinite(d.k1) && std::isfinite(d.k2) && std::isfinite(d.p1) &&
-             std::isfinite(d.p2) && std::isfinite(d.k3),
+  demand(std::isfinite(d.k1) && std::isfinite(d.k2) && std::isfinite(d.p1) && std::isfinite(d.p2) &&
+             std::isfinite(d.k3),
          "distortion coefficients are not finite");
   if (!faults.empty()) throw InputError(std::move(faults));
 }

@@ -40,8 +40,8 @@ struct CameraParameters {
 /// Source: D. C. Brown, "Close-range camera calibration", 1971, as OpenCV's calib3d has it.
 ///
 /// Valid domain: r ≤ max_radius(), the largest radius up to which r g(r) still grows (with a
-/// slope of at least 0.01), and at most tan 80°. Beyond it the polynomial folds back and two rays would share a pixel,
-/// so Project and UnprojectRay return nullopt there.
+/// slope of at least 0.01), and at most tan 80°. Beyond it the polynomial folds back and two rays
+/// would share a pixel, so Project and UnprojectRay return nullopt there.
 class CameraModel {
  public:
   /// Throws InputError unless the size and focal lengths are positive, everything is finite and

@@ -12,9 +12,9 @@ namespace fenestra {
 
 /// An always-on check of an invariant: a failure is a fault of this program, never of its input
 /// (that is an InputError).
-#define FENESTRA_CHECK(condition, detail)                                   \
-  do {                                                                      \
-    if (!(condition)) {                                                     \
-      ::fenestra::FailCheck(__FILE__, __LINE__, #condition, (detail));      \
-    }                                                                       \
+#define FENESTRA_CHECK(condition, detail)                              \
+  do {                                                                 \
+    if (!(condition)) {                                                \
+      ::fenestra::FailCheck(__FILE__, __LINE__, #condition, (detail)); \
+    }                                                                  \
   } while (false)

@@ -14,7 +14,8 @@ namespace fenestra {
 struct WindowEstimate {
   /// Centre of the frame's front outer rectangle.
   Eigen::Vector3d p_CO = Eigen::Vector3d::Zero();
-  /// Corners of that rectangle: top left, top right, bottom right, bottom left as seen in the image.
+  /// Corners of that rectangle: top left, top right, bottom right, bottom left as seen in the
+  /// image.
   std::array<Eigen::Vector3d, 4> p_CV = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                          Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   /// Unit normal of the window's plane, pointing towards the camera.

@@ -13,7 +13,8 @@ namespace fenestra {
 namespace {
 
 constexpr int kLargestSide = 16384;
-constexpr std::array<unsigned char, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+constexpr std::array<unsigned char, 8> kPngSignature = {0x89, 'P',  'N',  'G',
+                                                        '\r', '\n', 0x1a, '\n'};
 
 uint32_t BigEndian(const unsigned char* bytes) {
   return (uint32_t{bytes[0]} << 24) | (uint32_t{bytes[1]} << 16) | (uint32_t{bytes[2]} << 8) |
@@ -73,9 +74,8 @@ cv::Mat3b ReadColorImage(const std::filesystem::path& file) {
   if (image.type() == CV_8UC3) return image;
   if (image.depth() != CV_8U || image.channels() == 2) Refuse(file, image, "an 8-bit colour image");
   cv::Mat3b color(image.size());
-  const std::array<int, 6> from_to =
-      image.channels() == 1 ? std::array<int, 6>{0, 0, 0, 1, 0, 2}
-                            : std::array<int, 6>{0, 0, 1, 1, 2, 2};
+  const std::array<int, 6> from_to = image.channels() == 1 ? std::array<int, 6>{0, 0, 0, 1, 0, 2}
+                                                           : std::array<int, 6>{0, 0, 1, 1, 2, 2};
   cv::mixChannels(&image, 1, &color, 1, from_to.data(), 3);
   return color;
 }

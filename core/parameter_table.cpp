@@ -60,8 +60,8 @@ std::optional<ParameterValue> ParameterInfo::Read(YamlReader& reader,
                                                   const YAML::Node& node) const {
   std::optional<ParameterValue> value;
   if (!node.IsScalar()) {
-    reader.AddFault(node, fmt::format("{} must be {}, not {}", name, Allowed(),
-                                      YamlReader::Describe(node)));
+    reader.AddFault(
+        node, fmt::format("{} must be {}, not {}", name, Allowed(), YamlReader::Describe(node)));
     return std::nullopt;
   }
   if (type == Type::kSwitch) {

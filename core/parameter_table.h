@@ -53,57 +53,55 @@ class ParameterTable {
   ParameterTable& Number(const std::string& name, std::function<double&(Settings&)> field,
                          Range range, const std::string& description) {
     const double scale = range.si_per_unit;
-    return Add({.name = name,
-                .description = description,
-                .type = ParameterInfo::Type::kNumber,
-                .min = range.min,
-                .max = range.max},
-               [field, scale](const Settings& s) {
-                 return ParameterValue(field(const_cast<Settings&>(s)) / scale);
-               },
-               [field, scale](Settings& s, const ParameterValue& value) {
-                 field(s) = std::get<double>(value) * scale;
-               });
+    return Add(
+        {.name = name,
+         .description = description,
+         .type = ParameterInfo::Type::kNumber,
+         .min = range.min,
+         .max = range.max},
+        [field, scale](const Settings& s) {
+          return ParameterValue(field(const_cast<Settings&>(s)) / scale);
+        },
+        [field, scale](Settings& s, const ParameterValue& value) {
+          field(s) = std::get<double>(value) * scale;
+        });
   }
 
   ParameterTable& Integer(const std::string& name, std::function<int&(Settings&)> field,
                           Range range, const std::string& description) {
-    return Add({.name = name,
-                .description = description,
-                .type = ParameterInfo::Type::kInteger,
-                .min = range.min,
-                .max = range.max},
-               [field](const Settings& s) {
-                 return ParameterValue(static_cast<double>(field(const_cast<Settings&>(s))));
-               },
-               [field](Settings& s, const ParameterValue& value) {
-                 field(s) = static_cast<int>(std::get<double>(value));
-               });
+    return Add(
+        {.name = name,
+         .description = description,
+         .type = ParameterInfo::Type::kInteger,
+         .min = range.min,
+         .max = range.max},
+        [field](const Settings& s) {
+          return ParameterValue(static_cast<double>(field(const_cast<Settings&>(s))));
+        },
+        [field](Settings& s, const ParameterValue& value) {
+          field(s) = static_cast<int>(std::get<double>(value));
+        });
   }
 
   ParameterTable& Switch(const std::string& name, std::function<bool&(Settings&)> field,
                          const std::string& description) {
-    return Add({.name = name, .description = description, .type = ParameterInfo::Type::kSwitch},
-               [field](const Settings& s) {
-                 return ParameterValue(field(const_cast<Settings&>(s)));
-               },
-               [field](Settings& s, const ParameterValue& value) {
-                 field(s) = std::get<bool>(value);
-               });
+    return Add(
+        {.name = name, .description = description, .type = ParameterInfo::Type::kSwitch},
+        [field](const Settings& s) { return ParameterValue(field(const_cast<Settings&>(s))); },
+        [field](Settings& s, const ParameterValue& value) { field(s) = std::get<bool>(value); });
   }
 
   ParameterTable& Choice(const std::string& name, std::function<std::string&(Settings&)> field,
                          std::vector<std::string> choices, const std::string& description) {
-    return Add({.name = name,
-                .description = description,
-                .type = ParameterInfo::Type::kChoice,
-                .choices = std::move(choices)},
-               [field](const Settings& s) {
-                 return ParameterValue(field(const_cast<Settings&>(s)));
-               },
-               [field](Settings& s, const ParameterValue& value) {
-                 field(s) = std::get<std::string>(value);
-               });
+    return Add(
+        {.name = name,
+         .description = description,
+         .type = ParameterInfo::Type::kChoice,
+         .choices = std::move(choices)},
+        [field](const Settings& s) { return ParameterValue(field(const_cast<Settings&>(s))); },
+        [field](Settings& s, const ParameterValue& value) {
+          field(s) = std::get<std::string>(value);
+        });
   }
 
   /// In the order in which they were added.

@@ -16,8 +16,9 @@ using Philox = r123::Philox4x32;
 enum class Use : uint32_t { kChild = 0, kScalar = 1, kNormals = 2, kUniforms = 3 };
 
 Philox::ctr_type Cipher(uint64_t key, uint64_t index, uint32_t word, Use use) {
-  const Philox::ctr_type counter = {{static_cast<uint32_t>(index), static_cast<uint32_t>(index >> 32),
-                                     word, static_cast<uint32_t>(use)}};
+  const Philox::ctr_type counter = {{static_cast<uint32_t>(index),
+                                     static_cast<uint32_t>(index >> 32), word,
+                                     static_cast<uint32_t>(use)}};
   const Philox::key_type philox_key = {
       {static_cast<uint32_t>(key), static_cast<uint32_t>(key >> 32)}};
   return Philox()(counter, philox_key);

@@ -73,7 +73,7 @@ class StageLog {
 
   Clock clock_;
   bool keep_artifacts_;
-  int running_ = -1;        ///< Index into times_, or -1.
+  int running_ = -1;  ///< Index into times_, or -1.
   double resumed_at_ = 0.0;
   std::vector<StageTime> times_;
   std::vector<StagePicture> pictures_;

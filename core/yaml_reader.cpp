@@ -52,9 +52,8 @@ std::optional<double> ParseNumber(const std::string& text) {
 
 YamlReader::YamlReader(std::string text, std::string source)
     : text_(std::move(text)), source_(std::move(source)) {
-  const bool blank = std::all_of(text_.begin(), text_.end(), [](unsigned char c) {
-    return std::isspace(c) != 0;
-  });
+  const bool blank =
+      std::all_of(text_.begin(), text_.end(), [](unsigned char c) { return std::isspace(c) != 0; });
   if (blank) throw InputError(source_, "the file is empty");
   const size_t nul = text_.find('\0');
   if (nul != std::string::npos) {
@@ -66,8 +65,8 @@ YamlReader::YamlReader(std::string text, std::string source)
   try {
     root_ = YAML::Load(WithoutOpenCvDirective(text_));
   } catch (const YAML::Exception& error) {
-    throw InputError({{source_, error.mark.line + 1, error.mark.column + 1,
-                       "not valid YAML: " + error.msg}});
+    throw InputError(
+        {{source_, error.mark.line + 1, error.mark.column + 1, "not valid YAML: " + error.msg}});
   }
 }
 
@@ -160,8 +159,8 @@ std::optional<std::vector<double>> YamlReader::Numbers(const YAML::Node& node,
                                                        const std::string& what, size_t count) {
   if (!node.IsSequence() || (count != 0 && node.size() != count)) {
     const std::string size = count == 0 ? "" : fmt::format("{} ", count);
-    AddFault(node, fmt::format("{} must be a list of {}numbers, not {}", what, size,
-                               Describe(node)));
+    AddFault(node,
+             fmt::format("{} must be a list of {}numbers, not {}", what, size, Describe(node)));
     return std::nullopt;
   }
   std::vector<double> values;

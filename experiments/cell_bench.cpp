@@ -7,8 +7,12 @@
 namespace fenestra {
 namespace {
 
-SensorCalibration NominalOf(const StereoRig& rig) { return rig.nominal(); }
-SensorCalibration NominalOf(const StructuredLightSensor& sensor) { return sensor.nominal(); }
+SensorCalibration NominalOf(const StereoRig& rig) {
+  return rig.nominal();
+}
+SensorCalibration NominalOf(const StructuredLightSensor& sensor) {
+  return sensor.nominal();
+}
 
 Pose RigPoseOf(const TrialSettings& settings, const Scene& scene) {
   // Without a window the rig looks at the place where it would be: the world's origin.

@@ -68,8 +68,8 @@ class CellBench {
   Study study_;
   Cell cell_;
   std::vector<DetectorChoice> detector_choices_;
-  std::shared_ptr<const World> shared_world_;    ///< Null if trials draw the scene.
-  std::shared_ptr<const Sensor> shared_sensor_;  ///< Null if trials draw the sensor.
+  std::shared_ptr<const World> shared_world_;                ///< Null if trials draw the scene.
+  std::shared_ptr<const Sensor> shared_sensor_;              ///< Null if trials draw the sensor.
   std::vector<std::unique_ptr<Detector>> shared_detectors_;  ///< Empty if trials draw the sensor.
 };
 

@@ -49,12 +49,13 @@ std::vector<std::string> Differences(const TrialRecord& recorded, const TrialRec
   compare("reason", recorded.score.reason, repeated.score.reason);
   compare("detail", recorded.score.detail, repeated.score.detail);
   if (recorded.drawn != repeated.drawn) differences.push_back("drawn factors differ");
-  if (recorded.score.truth_p_CO != repeated.score.truth_p_CO) differences.push_back("truth differs");
+  if (recorded.score.truth_p_CO != repeated.score.truth_p_CO)
+    differences.push_back("truth differs");
   const Numbers a = NumbersOf(recorded.score.estimate);
   const Numbers b = NumbersOf(repeated.score.estimate);
   if (!SameBits(a, b)) {
-    differences.push_back(fmt::format("estimate: recorded [{}], now [{}]", fmt::join(a, ", "),
-                                      fmt::join(b, ", ")));
+    differences.push_back(
+        fmt::format("estimate: recorded [{}], now [{}]", fmt::join(a, ", "), fmt::join(b, ", ")));
   }
   return differences;
 }
@@ -74,9 +75,9 @@ std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, 
     throw InputError(file, fmt::format("holds no trial {}/{} (cell/trial)", cell, trial));
   }
 
-  const Study study = ReadStudy(
-      YamlReader::FromText(store.Metadata().at(kMetaStudy), file.string() + " (study)"),
-      Detectors());
+  const Study study =
+      ReadStudy(YamlReader::FromText(store.Metadata().at(kMetaStudy), file.string() + " (study)"),
+                Detectors());
   const std::vector<Cell> cells = Cells(study);
   const std::vector<TrialKey> trials = {{cell, trial}};
   const RunOptions options{.jobs = 1, .keep_artifacts = [&](TrialKey) { return !out.empty(); }};

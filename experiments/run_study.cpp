@@ -14,14 +14,10 @@ namespace fenestra {
 namespace {
 
 StoreMetadata MetadataOf(const StudyRun& run) {
-  return {{kMetaStudy, ToYaml(run.study)},
-          {kMetaStudyText, run.study_text},
-          {"name", run.study.name},
-          {"seed", std::to_string(run.study.seed)},
-          {"version", Version()},
-          {"libraries", LibraryVersions()},
-          {"processor", Processor()},
-          {"jobs", std::to_string(run.jobs)}};
+  return {{kMetaStudy, ToYaml(run.study)}, {kMetaStudyText, run.study_text},
+          {"name", run.study.name},        {"seed", std::to_string(run.study.seed)},
+          {"version", Version()},          {"libraries", LibraryVersions()},
+          {"processor", Processor()},      {"jobs", std::to_string(run.jobs)}};
 }
 
 std::filesystem::path PictureFolder(const StudyRun& run, const Cell& cell) {

@@ -22,8 +22,8 @@ cv::Mat3b DrawTruthAndEstimate(const cv::Mat& image, std::span<const PictureView
 /// Depth in false colours, near red to far blue; no return is black.
 cv::Mat3b DrawDepth(const DepthImage& depth);
 
-/// The views of an observation's own images: of the left and the right image (stereo), of the colour
-/// and of the depth image (RGB-D), as the nominal calibration has them.
+/// The views of an observation's own images: of the left and the right image (stereo), of the
+/// colour and of the depth image (RGB-D), as the nominal calibration has them.
 std::array<PictureView, 2> ObservationViews(const SensorCalibration& calibration);
 
 }  // namespace fenestra

@@ -17,7 +17,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json ToJson(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+ordered_json ToJson(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 ordered_json ToJson(const Pose& X) {
   const Eigen::Matrix3d& R = X.rotation();

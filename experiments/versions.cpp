@@ -12,7 +12,9 @@
 
 namespace fenestra {
 
-const char* Version() { return FENESTRA_VERSION; }
+const char* Version() {
+  return FENESTRA_VERSION;
+}
 
 std::string LibraryVersions() {
   return fmt::format("Embree {}, OpenCV {}, PCL {}, Eigen {}.{}.{}, SQLite {}", EmbreeVersion(),

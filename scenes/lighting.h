@@ -12,7 +12,7 @@ inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
 /// A distant disc too small to blur a shadow at window scale.
 struct Sun {
   /// Above the horizon, in the facade's half space for a positive z.
-  double azimuth_rad = 0.0;     ///< From the facade's normal (+Z) towards +X.
+  double azimuth_rad = 0.0;  ///< From the facade's normal (+Z) towards +X.
   double elevation_rad = 40.0 * std::numbers::pi / 180.0;  ///< Above the horizon.
   double illuminance_lx = 0.0;  ///< On a plane perpendicular to the rays; 0: no sun.
 

@@ -84,8 +84,8 @@ cv::Mat BlurByLens(const cv::Mat& radiance, const LensOptions& lens) {
 
 cv::Mat1f Expose(const cv::Mat1f& luminance, const ImageSensorOptions& sensor,
                  const LensOptions& lens, double exposure_s, const RandomStream& noise) {
-  const float electrons_per_luminance = static_cast<float>(
-      sensor.electrons_per_lux_s * IlluminancePerLuminance(lens) * exposure_s);
+  const float electrons_per_luminance =
+      static_cast<float>(sensor.electrons_per_lux_s * IlluminancePerLuminance(lens) * exposure_s);
   const float inverse_saturation = static_cast<float>(1.0 / sensor.saturation_e);
   const float read_variance = static_cast<float>(sensor.read_noise_e * sensor.read_noise_e);
 

@@ -12,8 +12,8 @@ std::array<float, 255> MakeThresholds() {
   std::array<float, 255> thresholds{};
   for (size_t i = 0; i < thresholds.size(); ++i) {
     const double v = (static_cast<double>(i) + 0.5) / 255.0;
-    thresholds[i] = static_cast<float>(v <= 12.92 * 0.0031308 ? v / 12.92
-                                                               : std::pow((v + 0.055) / 1.055, 2.4));
+    thresholds[i] =
+        static_cast<float>(v <= 12.92 * 0.0031308 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
   }
   return thresholds;
 }

@@ -30,8 +30,12 @@ bool DistortionIsInvertible(const CameraModel& camera) {
   return true;
 }
 
-Pose NominalLeft(double baseline_m) { return Pose::Translation({-0.5 * baseline_m, 0.0, 0.0}); }
-Pose NominalRight(double baseline_m) { return Pose::Translation({0.5 * baseline_m, 0.0, 0.0}); }
+Pose NominalLeft(double baseline_m) {
+  return Pose::Translation({-0.5 * baseline_m, 0.0, 0.0});
+}
+Pose NominalRight(double baseline_m) {
+  return Pose::Translation({0.5 * baseline_m, 0.0, 0.0});
+}
 
 Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
   return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
@@ -68,9 +72,10 @@ void Validate(const StereoRigOptions& o) {
 
 StereoRig::StereoRig(const StereoRigOptions& options)
     : options_((Validate(options), options)),
-      nominal_{.left = NominalCamera(options),
-               .right = NominalCamera(options),
-               .X_RL = NominalRight(options.baseline_m).inverse() * NominalLeft(options.baseline_m)},
+      nominal_{
+          .left = NominalCamera(options),
+          .right = NominalCamera(options),
+          .X_RL = NominalRight(options.baseline_m).inverse() * NominalLeft(options.baseline_m)},
       rays_(nominal_.left),
       vignetting_(NaturalVignetting(rays_)) {}
 

@@ -89,8 +89,7 @@ class Physics {
     if (!s.sees_projector) return {NoReturn::kShadow};
 
     const Eigen::Vector3d p_CQ = s.z_m * ray;
-    const Eigen::Vector3d to_projector =
-        Eigen::Vector3d(o_.projector_baseline_m, 0.0, 0.0) - p_CQ;
+    const Eigen::Vector3d to_projector = Eigen::Vector3d(o_.projector_baseline_m, 0.0, 0.0) - p_CQ;
     const double cos_camera = -s.normal_C.dot(p_CQ.normalized());
     const double cos_projector = s.normal_C.dot(to_projector.normalized());
     if (std::min(cos_camera, cos_projector) < std::cos(o_.grazing_limit_rad)) {
@@ -118,8 +117,8 @@ class Physics {
     // The pattern passes a pane of glass twice, ambient light on the surface once.
     const double dot_dn =
         reflected * cos_projector / squared_distance * s.transmittance * s.transmittance;
-    const double ambient_dn = reflected * s.transmittance *
-                              (s.irradiance_830 * o_.filter_width_nm / o_.dot_irradiance);
+    const double ambient_dn =
+        reflected * s.transmittance * (s.irradiance_830 * o_.filter_width_nm / o_.dot_irradiance);
     if (ambient_dn >= o_.saturation_dn) return NoReturn::kSaturated;
     // A dot may saturate; what counts is how far it stands out of its surroundings.
     const double contrast_dn = std::min(dot_dn, o_.saturation_dn - ambient_dn);
@@ -247,8 +246,8 @@ double StructuredLightSensor::ColorExposure(const std::array<cv::Mat1f, 3>& lumi
   const auto mean_dn = [&](double exposure_s) {
     double sum = 0.0;
     for (const cv::Mat1f& channel : sparse) {
-      sum += cv::mean(EncodeSrgb(Expose(channel, noiseless, options_.color_lens, exposure_s,
-                                        RandomStream(0))))[0];
+      sum += cv::mean(EncodeSrgb(
+          Expose(channel, noiseless, options_.color_lens, exposure_s, RandomStream(0))))[0];
     }
     return sum / 3.0;
   };

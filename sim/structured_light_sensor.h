@@ -18,17 +18,17 @@ namespace fenestra {
 struct StructuredLightOptions {
   int depth_width_px = 320;
   int depth_height_px = 240;
-  double depth_focal_px = 285.63;       ///< At 320 x 240; MS SDK 1.8.
+  double depth_focal_px = 285.63;  ///< At 320 x 240; MS SDK 1.8.
   int color_width_px = 640;
   int color_height_px = 480;
   double color_focal_px = 531.15;       ///< At 640 x 480; MS SDK 1.8.
   double color_offset_m = 0.025;        ///< Colour camera right (+x) of the depth camera.
   double projector_baseline_m = 0.075;  ///< Projector right (+x) of the depth camera.
 
-  bool near_mode = false;               ///< 0.4–3.0 m instead of 0.8–4.0 m (MS SDK).
+  bool near_mode = false;  ///< 0.4–3.0 m instead of 0.8–4.0 m (MS SDK).
 
   /// Disparity step and noise, in pixels of the 640-wide image in which the sensor matches.
-  double disparity_step_px = 0.125;     ///< 1/8 px (ROS kinect_calibration/technical).
+  double disparity_step_px = 0.125;  ///< 1/8 px (ROS kinect_calibration/technical).
   /// Before quantisation. Khoshelham's σ_z = 1.425e-3 z² is 0.061 px at f b = 42.8 px m and
   /// includes the step's 0.125/√12 = 0.036 px: √(0.061² − 0.036²) = 0.049.
   double disparity_noise_px = 0.049;
@@ -40,12 +40,13 @@ struct StructuredLightOptions {
 
   /// Signal of a dot on a surface of reflectance 0.8 at 1 m [10-bit DN] (Landau 2015: 5.90e8/r²).
   double dot_signal_dn = 590.0;
-  double dark_noise_dn = 10.4;          ///< Standard deviation of the infra-red image (Landau 2015).
-  double shot_noise_dn = 0.5;           ///< Variance per DN of signal (Landau 2015: gamma noise).
-  double saturation_dn = 1023.0;        ///< 10 bits.
+  double dark_noise_dn = 10.4;    ///< Standard deviation of the infra-red image (Landau 2015).
+  double shot_noise_dn = 0.5;     ///< Variance per DN of signal (Landau 2015: gamma noise).
+  double saturation_dn = 1023.0;  ///< 10 bits.
   /// A 9 x 9 window holds 9 dots: its evidence is √9 times a dot's. Matched when it exceeds this.
   double matching_snr = 3.5;
-  double grazing_limit_rad = 75.0 * std::numbers::pi / 180.0;  ///< Between the 70° and 80° that users report.
+  double grazing_limit_rad =
+      75.0 * std::numbers::pi / 180.0;  ///< Between the 70° and 80° that users report.
   /// Peak irradiance of a dot at 1 m [W/m²]: 60 mW spread over the field of view, 11 % of it dots.
   double dot_irradiance = 0.574;
   /// Full width of the infra-red filter [nm]: how much ambient light competes with the dots.
@@ -53,14 +54,12 @@ struct StructuredLightOptions {
 
   LensOptions color_lens{.f_number = 2.0, .transmission = 0.9, .blur_sigma_px = 0.5};
   /// Small pixels: 2.8 µm against the 6 µm of the machine-vision camera.
-  ImageSensorOptions color_sensor{.electrons_per_lux_s = 2.0e4,
-                                  .saturation_e = 6000.0,
-                                  .read_noise_e = 6.0,
-                                  .noise = true};
+  ImageSensorOptions color_sensor{
+      .electrons_per_lux_s = 2.0e4, .saturation_e = 6000.0, .read_noise_e = 6.0, .noise = true};
   /// Mean of the sRGB-encoded image that automatic exposure aims for, of 255.
   double color_mean_dn = 118.0;
   bool color_auto_exposure = true;
-  double color_exposure_s = 8e-3;       ///< Used when not automatic.
+  double color_exposure_s = 8e-3;  ///< Used when not automatic.
   int edge_samples_per_pixel = 64;
 };
 

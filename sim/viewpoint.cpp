@@ -19,11 +19,10 @@ Pose RigPose(const Viewpoint& viewpoint, const Pose& X_WO) {
   Matrix3d R_OA;  // A: the rig when it looks straight at the centroid.
   R_OA << right_O, forward_O.cross(right_O), forward_O;
 
-  const Matrix3d R_AB =
-      (AngleAxisd(viewpoint.yaw_rad, Vector3d::UnitY()) *
-       AngleAxisd(viewpoint.pitch_rad, Vector3d::UnitX()) *
-       AngleAxisd(viewpoint.roll_rad, Vector3d::UnitZ()))
-          .toRotationMatrix();
+  const Matrix3d R_AB = (AngleAxisd(viewpoint.yaw_rad, Vector3d::UnitY()) *
+                         AngleAxisd(viewpoint.pitch_rad, Vector3d::UnitX()) *
+                         AngleAxisd(viewpoint.roll_rad, Vector3d::UnitZ()))
+                            .toRotationMatrix();
   return X_WO * Pose(R_OA * R_AB, viewpoint.distance_m * outward_O);
 }
 

@@ -7,7 +7,7 @@ namespace fenestra {
 /// Where a sensor rig stands and looks, relative to a window. The rig's frame B has a camera's
 /// axes: +x right, +y down, +z forward.
 struct Viewpoint {
-  double distance_m = 2.0;     ///< From the window's centroid to the rig's origin.
+  double distance_m = 2.0;  ///< From the window's centroid to the rig's origin.
   /// The rig sits on the sphere around the centroid: at zero, straight in front of the window.
   double azimuth_rad = 0.0;    ///< Towards the window's +x (the viewer's right).
   double elevation_rad = 0.0;  ///< Upwards.

@@ -13,7 +13,7 @@ namespace fenestra {
 
 /// A detector that can be asked for by name.
 struct DetectorInfo {
-  std::string name;         ///< "paper-stereo"
+  std::string name;  ///< "paper-stereo"
   SensorKind sensor;
   std::string description;  ///< One line.
   std::vector<ParameterInfo> options;

@@ -19,9 +19,9 @@ struct DetectArguments {
   std::string detector;
   std::vector<std::string> options;  ///< "name=value"
   std::filesystem::path calibration;
-  std::filesystem::path left, right;    ///< Stereo.
-  std::filesystem::path color, depth;   ///< RGB-D.
-  double depth_scale = 0.0;             ///< Units per metre; 0: as the calibration says.
+  std::filesystem::path left, right;   ///< Stereo.
+  std::filesystem::path color, depth;  ///< RGB-D.
+  double depth_scale = 0.0;            ///< Units per metre; 0: as the calibration says.
   bool json = false;
   std::filesystem::path pictures;
 };
@@ -54,16 +54,15 @@ const DetectorInfo& DetectorFor(const std::string& name, SensorKind sensor) {
   for (const DetectorInfo& detector : Detectors()) {
     if (detector.sensor == sensor) names.push_back(detector.name);
   }
-  throw InputError("--detector", fmt::format("there is no {} detector '{}'.{} Known: {}.",
-                                             ToString(sensor), name, DidYouMean(name, names),
-                                             fmt::join(names, ", ")));
+  throw InputError("--detector",
+                   fmt::format("there is no {} detector '{}'.{} Known: {}.", ToString(sensor), name,
+                               DidYouMean(name, names), fmt::join(names, ", ")));
 }
 
 void Detect(const DetectArguments& arguments, const Observation& observation,
             const SensorCalibration& calibration, SensorKind sensor) {
   const DetectorInfo& info = DetectorFor(arguments.detector, sensor);
-  const auto detector =
-      MakeDetector(info.name, calibration, ParseOptions(info, arguments.options));
+  const auto detector = MakeDetector(info.name, calibration, ParseOptions(info, arguments.options));
   StageLog log(SteadyClock(), !arguments.pictures.empty());
   const Detection detection = detector->Detect(observation, log);
   log.End();
@@ -77,16 +76,16 @@ void Detect(const DetectArguments& arguments, const Observation& observation,
 
 void DetectStereo(const DetectArguments& arguments) {
   const StereoCalibration calibration = ReadStereoCalibration(arguments.calibration);
-  const StereoObservation observation{ReadGrayImage(arguments.left), ReadGrayImage(arguments.right)};
+  const StereoObservation observation{ReadGrayImage(arguments.left),
+                                      ReadGrayImage(arguments.right)};
   Detect(arguments, observation, calibration, SensorKind::kStereo);
 }
 
 void DetectRgbd(const DetectArguments& arguments) {
   RgbdCalibration calibration = ReadRgbdCalibration(arguments.calibration);
   if (arguments.depth_scale > 0.0) calibration.depth_unit_m = 1.0 / arguments.depth_scale;
-  const RgbdObservation observation{
-      ReadColorImage(arguments.color),
-      {ReadDepthImage(arguments.depth), calibration.depth_unit_m}};
+  const RgbdObservation observation{ReadColorImage(arguments.color),
+                                    {ReadDepthImage(arguments.depth), calibration.depth_unit_m}};
   Detect(arguments, observation, calibration, SensorKind::kRgbd);
 }
 

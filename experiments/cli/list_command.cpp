@@ -9,16 +9,22 @@
 namespace fenestra::cli {
 namespace {
 
+// Without the last digits that a unit's conversion leaves: 15, not 14.999999999999998.
+std::string Written(const ParameterValue& value) {
+  const double* number = std::get_if<double>(&value);
+  return number != nullptr ? fmt::format("{:.12g}", *number) : ToString(value);
+}
+
 void PrintParameters(const std::vector<ParameterInfo>& infos, const std::string& indent) {
   size_t name_width = 0;
   size_t default_width = 0;
   for (const ParameterInfo& info : infos) {
     name_width = std::max(name_width, info.name.size());
-    default_width = std::max(default_width, ToString(info.default_value).size());
+    default_width = std::max(default_width, Written(info.default_value).size());
   }
   for (const ParameterInfo& info : infos) {
-    fmt::print("{}{:<{}}  {:>{}}  {} Allowed: {}.\n", indent, info.name, name_width,
-               ToString(info.default_value), default_width, info.description, info.Allowed());
+    fmt::print("{}{:<{}}  {:>{}}  {} ({})\n", indent, info.name, name_width,
+               Written(info.default_value), default_width, info.description, info.Allowed());
   }
 }
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr const char* kDescription =
     "Fenestra: how well, and until where, does a vision pipeline find a window?\n"
-    "It renders a facade, models the sensors, runs the detectors and scores them against the truth.";
+    "It renders a facade, models the sensors, runs the detectors and scores them against the "
+    "truth.";
 
 constexpr const char* kExamples =
     "Examples:\n"
@@ -76,9 +77,8 @@ int Main(int argc, char** argv) {
   CLI::App program(kDescription, "fenestra");
   program.footer(kExamples);
   program.require_subcommand(1);
-  program.set_version_flag("--version", [] {
-    return fmt::format("fenestra {} ({})", Version(), LibraryVersions());
-  });
+  program.set_version_flag(
+      "--version", [] { return fmt::format("fenestra {} ({})", Version(), LibraryVersions()); });
   int exit_code = kDone;
   AddRunCommand(program, exit_code);
   AddRenderCommand(program, exit_code);

@@ -44,7 +44,8 @@ void AddRenderCommand(CLI::App& program, int& exit_code) {
   command->footer(
       "Example:\n"
       "  fenestra render paper --cell 2 --trial 5 --out /tmp/trial\n"
-      "DIR gets what a detector sees (PNG, YAML) and, in DIR/truth, what it must not see (JSON, EXR, "
+      "DIR gets what a detector sees (PNG, YAML) and, in DIR/truth, what it must not see (JSON, "
+      "EXR, "
       "PCD).");
   const auto arguments = std::make_shared<RenderArguments>();
   command->add_option("STUDY", arguments->study, "Name or file of a study")->required();

@@ -30,7 +30,8 @@ CellAndTrial ParseTrial(const std::string& text) {
     const auto trial = std::from_chars(cell.ptr + 1, end, key.trial);
     if (trial.ec == std::errc() && trial.ptr == end) return key;
   }
-  throw InputError("CELL/TRIAL", fmt::format("must be two whole numbers such as 7/3, not '{}'", text));
+  throw InputError("CELL/TRIAL",
+                   fmt::format("must be two whole numbers such as 7/3, not '{}'", text));
 }
 
 std::string Describe(const Score& score) {
@@ -60,11 +61,13 @@ int Replay(const ReplayArguments& arguments) {
     for (const StageTime& time : row.repeated.stages) {
       fmt::print("    {:<12} {:7.1f} ms\n", time.stage, 1e3 * time.seconds);
     }
-    for (const std::string& difference : row.differences) fmt::print("    DIFFERS: {}\n", difference);
+    for (const std::string& difference : row.differences)
+      fmt::print("    DIFFERS: {}\n", difference);
     same = same && row.differences.empty();
   }
   if (!same) {
-    fmt::print("The numbers differ from the recorded ones: another version, processor or library?\n");
+    fmt::print(
+        "The numbers differ from the recorded ones: another version, processor or library?\n");
     return kFailure;
   }
   fmt::print("The numbers equal the recorded ones to the last bit.\n");

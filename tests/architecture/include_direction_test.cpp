@@ -53,7 +53,9 @@ std::vector<std::string> Violations(const Rules& rules, const std::string& folde
   return violations;
 }
 
-Rules ProjectRules() { return ReadRules(testing::ReadFile(kRoot / "docs/architecture.md")); }
+Rules ProjectRules() {
+  return ReadRules(testing::ReadFile(kRoot / "docs/architecture.md"));
+}
 
 TEST(IncludeDirectionTest, TheTableNamesEveryFolderOfSources) {
   const Rules rules = ProjectRules();
@@ -76,8 +78,7 @@ TEST(IncludeDirectionTest, IncludesGoDownTheFloorsOnly) {
       if (extension != ".h" && extension != ".cpp") continue;
       ++files;
       const std::string text = testing::ReadFile(entry.path());
-      for (const std::string& violation :
-           Violations(rules, folder, entry.path().string(), text)) {
+      for (const std::string& violation : Violations(rules, folder, entry.path().string(), text)) {
         ADD_FAILURE() << violation;
       }
     }

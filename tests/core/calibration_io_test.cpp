@@ -25,7 +25,8 @@ CameraModel Camera(double scale) {
                       .distortion = {-0.1 / 3.0, 0.01 / 7.0, 1e-4 / 3.0, -1e-4 / 7.0, 1e-5 / 3.0}});
 }
 
-const Pose kPose(RotationFromVector({0.01 / 3.0, -0.02 / 7.0, 0.03 / 9.0}), {-1.05 / 3.0, 0.1, 0.2});
+const Pose kPose(RotationFromVector({0.01 / 3.0, -0.02 / 7.0, 0.03 / 9.0}),
+                 {-1.05 / 3.0, 0.1, 0.2});
 
 TEST(CalibrationIoTest, StereoSurvivesTheWayThroughAFileToTheBit) {
   const TemporaryFolder folder;
@@ -64,7 +65,8 @@ TEST(CalibrationIoTest, WhatOpenCvWritesIsRead) {
     const cv::Mat D = (cv::Mat_<double>(1, 5) << -0.28, 0.1, 0.001, -0.0002, 0.0);
     storage << "image_width" << 640 << "image_height" << 480;
     storage << "K1" << K << "D1" << D << "K2" << K << "D2" << D;
-    storage << "R" << cv::Mat::eye(3, 3, CV_64F) << "T" << (cv::Mat_<double>(3, 1) << -0.0998, 0, 0);
+    storage << "R" << cv::Mat::eye(3, 3, CV_64F) << "T"
+            << (cv::Mat_<double>(3, 1) << -0.0998, 0, 0);
     storage << "Q" << cv::Mat::eye(4, 4, CV_64F);  // Not ours: ignored.
   }
   const StereoCalibration calibration = ReadStereoCalibration(file);

@@ -89,7 +89,11 @@ TEST(CameraModelTest, ScalingKeepsTheImageBorders) {
 
 TEST(CameraModelTest, RefusesAbsurdParametersAllAtOnce) {
   try {
-    CameraModel({.width_px = 0, .height_px = 10, .fx_px = -1.0, .fy_px = NAN, .cx_px = NAN,
+    CameraModel({.width_px = 0,
+                 .height_px = 10,
+                 .fx_px = -1.0,
+                 .fy_px = NAN,
+                 .cx_px = NAN,
                  .distortion = {}});
     FAIL();
   } catch (const InputError& error) {

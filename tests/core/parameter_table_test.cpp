@@ -20,13 +20,17 @@ struct Settings {
 ParameterTable<Settings> Table() {
   ParameterTable<Settings> table;
   table
-      .Number("angle_deg", [](Settings& s) -> double& { return s.angle_rad; },
-              {.min = -180.0, .max = 180.0, .si_per_unit = std::numbers::pi / 180.0}, "An angle.")
-      .Integer("size_px", [](Settings& s) -> int& { return s.size_px; }, {.min = 1, .max = 99},
-               "A size.")
-      .Switch("glass", [](Settings& s) -> bool& { return s.glass; }, "A pane.")
-      .Choice("scene", [](Settings& s) -> std::string& { return s.scene; }, {"facade", "wall"},
-              "A scene.");
+      .Number(
+          "angle_deg", [](Settings& s) -> double& { return s.angle_rad; },
+          {.min = -180.0, .max = 180.0, .si_per_unit = std::numbers::pi / 180.0}, "An angle.")
+      .Integer(
+          "size_px", [](Settings& s) -> int& { return s.size_px; }, {.min = 1, .max = 99},
+          "A size.")
+      .Switch(
+          "glass", [](Settings& s) -> bool& { return s.glass; }, "A pane.")
+      .Choice(
+          "scene", [](Settings& s) -> std::string& { return s.scene; }, {"facade", "wall"},
+          "A scene.");
   return table;
 }
 

@@ -19,14 +19,16 @@ double KolmogorovStatistic(std::vector<double> sample, Cdf cdf) {
   double largest = 0.0;
   for (size_t i = 0; i < sample.size(); ++i) {
     const double p = cdf(sample[i]);
-    largest = std::max({largest, (static_cast<double>(i) + 1.0) / n - p,
-                        p - static_cast<double>(i) / n});
+    largest =
+        std::max({largest, (static_cast<double>(i) + 1.0) / n - p, p - static_cast<double>(i) / n});
   }
   return largest * std::sqrt(n);
 }
 constexpr double kOnePerMille = 1.95;
 
-double NormalCdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+double NormalCdf(double x) {
+  return 0.5 * std::erfc(-x / std::sqrt(2.0));
+}
 
 constexpr uint64_t kSamples = 20000;
 
@@ -41,8 +43,8 @@ TEST(RandomStreamTest, SameArgumentsGiveTheSameNumberInAnyOrder) {
 
 TEST(RandomStreamTest, PathsDifferInSeedPurposeIndexAndOrder) {
   const std::set<uint64_t> keys = {
-      RandomStream(1).Child("a", 0).key(), RandomStream(2).Child("a", 0).key(),
-      RandomStream(1).Child("b", 0).key(), RandomStream(1).Child("a", 1).key(),
+      RandomStream(1).Child("a", 0).key(),         RandomStream(2).Child("a", 0).key(),
+      RandomStream(1).Child("b", 0).key(),         RandomStream(1).Child("a", 1).key(),
       RandomStream(1).Child("a").Child("b").key(), RandomStream(1).Child("b").Child("a").key()};
   EXPECT_EQ(keys.size(), 6u);
 }

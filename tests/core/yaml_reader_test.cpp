@@ -35,7 +35,8 @@ TEST(YamlReaderTest, UnknownAndRepeatedKeysAreFaults) {
   const std::vector<std::string> allowed = {"sensors", "seed"};
   EXPECT_FALSE(reader.CheckKeys(reader.root(), "the study", allowed));
   const std::string faults = FaultsOf([&] { reader.ThrowIfFaulty(); });
-  EXPECT_THAT(faults, HasSubstr("f:1:1: unknown key 'sensrs' in the study. Did you mean 'sensors'?"));
+  EXPECT_THAT(faults,
+              HasSubstr("f:1:1: unknown key 'sensrs' in the study. Did you mean 'sensors'?"));
   EXPECT_THAT(faults, HasSubstr("f:3:1: 'seed' stands twice in the study"));
 }
 
@@ -55,7 +56,8 @@ TEST(YamlReaderTest, UnreadableFilesSayWhy) {
   EXPECT_THAT(read(folder / "missing"), HasSubstr("no such file"));
   EXPECT_THAT(read(folder.path()), HasSubstr("not a regular file"));
   EXPECT_THAT(read(folder.Write("empty", " \n")), HasSubstr("empty"));
-  EXPECT_THAT(read(folder.Write("nul", std::string("a: 1\nb\0", 7))), HasSubstr("nul:2:2: not a text"));
+  EXPECT_THAT(read(folder.Write("nul", std::string("a: 1\nb\0", 7))),
+              HasSubstr("nul:2:2: not a text"));
   EXPECT_THAT(read(folder.Write("huge", std::string(5 << 20, '\0'))), HasSubstr("at most"));
   EXPECT_THAT(read(folder.Write("bad", "a: [1, 2\nb: 3\n")), HasSubstr("bad:2:"));
   EXPECT_THAT(read(folder.Write("deep", std::string(100000, '['))), HasSubstr("not valid YAML"));

@@ -31,7 +31,9 @@ constexpr const char* kStudy =
     "  yaw_deg: {uniform: [-2, 2]}\n"
     "  wall_reflectance: {uniform: [0.7, 0.9]}\n";
 
-Study SmallStudy() { return ReadStudy(YamlReader::FromText(kStudy, "small.yaml"), Detectors()); }
+Study SmallStudy() {
+  return ReadStudy(YamlReader::FromText(kStudy, "small.yaml"), Detectors());
+}
 
 // All rows without their timings, in the order of their keys.
 std::string Rows(const Study& study, std::vector<TrialKey> order, int jobs) {
@@ -78,8 +80,8 @@ TEST(RunStudyTest, LeavesEveryFileAndEveryTrialReplaysToTheLastBit) {
   const StudyRun run{.study = SmallStudy(), .study_text = kStudy, .out = folder / "out", .jobs = 2};
   const std::vector<CellSummary> summaries = RunStudy(run);
   EXPECT_EQ(summaries.size(), 4u);
-  for (const char* name : {"results.sqlite", "trials.csv", "summary.csv", "summary.md", "study.yaml",
-                           "pictures/cell_000_main_stereo/paper-stereo/left.png",
+  for (const char* name : {"results.sqlite", "trials.csv", "summary.csv", "summary.md",
+                           "study.yaml", "pictures/cell_000_main_stereo/paper-stereo/left.png",
                            "pictures/cell_002_main_rgbd/paper-rgbd/color.png"}) {
     EXPECT_TRUE(std::filesystem::exists(run.out / name)) << name;
   }
@@ -91,14 +93,14 @@ TEST(RunStudyTest, LeavesEveryFileAndEveryTrialReplaysToTheLastBit) {
 
 TEST(RunStudyTest, ASceneWithoutAWindowCountsFalseAlarms) {
   const TemporaryFolder folder;
-  const StudyRun run{
-      .study = ReadStudy(YamlReader::FromText("name: none\nrepetitions: 1\nsensors: [stereo, rgbd]\n"
-                                              "factors: {target: false, distance_m: 1.5}\n",
-                                              "none.yaml"),
-                         Detectors()),
-      .study_text = "",
-      .out = folder / "out",
-      .jobs = 2};
+  const StudyRun run{.study = ReadStudy(YamlReader::FromText(
+                                            "name: none\nrepetitions: 1\nsensors: [stereo, rgbd]\n"
+                                            "factors: {target: false, distance_m: 1.5}\n",
+                                            "none.yaml"),
+                                        Detectors()),
+                     .study_text = "",
+                     .out = folder / "out",
+                     .jobs = 2};
   for (const CellSummary& summary : RunStudy(run)) {
     EXPECT_EQ(summary.without_target, 1);
     EXPECT_EQ(summary.in_view, 0);

@@ -30,7 +30,9 @@ Study SmallStudy() {
                    Detectors());
 }
 
-bool SameBits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a == b; }
+bool SameBits(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a == b;
+}
 
 void ExpectSameDetection(const Detection& a, const Detection& b) {
   ASSERT_EQ(a.index(), b.index());
@@ -59,8 +61,9 @@ struct FromFiles {
 
 FromFiles ReadBack(const std::filesystem::path& folder, SensorKind sensor) {
   if (sensor == SensorKind::kStereo) {
-    return {ReadStereoCalibration(folder / "calibration.yaml"),
-            StereoObservation{ReadGrayImage(folder / "left.png"), ReadGrayImage(folder / "right.png")}};
+    return {
+        ReadStereoCalibration(folder / "calibration.yaml"),
+        StereoObservation{ReadGrayImage(folder / "left.png"), ReadGrayImage(folder / "right.png")}};
   }
   const RgbdCalibration calibration = ReadRgbdCalibration(folder / "calibration.yaml");
   return {calibration,

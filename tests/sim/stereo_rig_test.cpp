@@ -69,8 +69,7 @@ TEST(StereoRigTest, RigsScatterByTheirTolerances) {
     const StereoRig::TrueState state = rig.Draw(RandomStream(3).Child("rig", uint64_t(i)));
     const Pose X_RL = state.X_BR.inverse() * state.X_BL;
     rotation2 += std::pow(Eigen::AngleAxisd(X_RL.rotation()).angle(), 2);
-    translation2 +=
-        (state.X_BR.translation() - Eigen::Vector3d(0.175, 0.0, 0.0)).squaredNorm();
+    translation2 += (state.X_BR.translation() - Eigen::Vector3d(0.175, 0.0, 0.0)).squaredNorm();
   }
   // 3 kRigs squared normals: relative standard deviation √(2 / 1500) = 0.037; five of them.
   EXPECT_NEAR(rotation2 / (3.0 * kRigs * 1e-8), 1.0, 0.18);
@@ -99,7 +98,8 @@ TEST(StereoRigTest, AutomaticExposureMakesBrightnessIrrelevant) {
   Lighting bright;
   bright.sky.illuminance_lx = 5000.0;
   const auto mean = [&](const Lighting& lighting) {
-    const auto seen = rig.Observe(caster, lighting, X_WB, rig.Draw(RandomStream(1)), RandomStream(2));
+    const auto seen =
+        rig.Observe(caster, lighting, X_WB, rig.Draw(RandomStream(1)), RandomStream(2));
     return cv::mean(seen.left)[0];
   };
   EXPECT_NEAR(mean({}), 0.3 * 255.0, 0.5);

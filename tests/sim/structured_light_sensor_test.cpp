@@ -58,8 +58,7 @@ TEST(StructuredLightSensorTest, AWallsDepthIsRightToHalfAStep) {
 }
 
 TEST(StructuredLightSensorTest, DepthsAreThoseOfWholeDisparitySteps) {
-  const DepthFrame frame =
-      Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.5});
+  const DepthFrame frame = Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.5});
   std::set<uint16_t> values;
   for (const uint16_t raw : frame.depth.raw) {
     if (raw != 0) values.insert(raw);
@@ -68,18 +67,18 @@ TEST(StructuredLightSensorTest, DepthsAreThoseOfWholeDisparitySteps) {
   for (const uint16_t raw : values) {
     const double steps = kFocalTimesBaseline / (raw * 0.001) / 0.125;
     // Rounding to whole millimetres moves it by z² shift: 0.0005 m · f b / z² / step.
-    EXPECT_NEAR(steps, std::round(steps), 0.0005 * kFocalTimesBaseline / std::pow(raw * 0.001, 2) / 0.125 + 1e-6);
+    EXPECT_NEAR(steps, std::round(steps),
+                0.0005 * kFocalTimesBaseline / std::pow(raw * 0.001, 2) / 0.125 + 1e-6);
   }
 }
 
 TEST(StructuredLightSensorTest, NoiseOnAWallGrowsWithTheSquareOfDistance) {
   // Khoshelham & Elberink: σ_z = 1.425e-3 z². The window correlates neighbours, so that about
-  // 320 · 240 / 25 = 3000 independent samples remain: relative standard deviation 1.3 %; the band of
-  // 8 % holds six of them. Depth is rounded to 1 mm, which adds 0.29 mm.
+  // 320 · 240 / 25 = 3000 independent samples remain: relative standard deviation 1.3 %; the band
+  // of 8 % holds six of them. Depth is rounded to 1 mm, which adds 0.29 mm.
   for (const double z_m : {1.5, 2.0, 3.0, 3.6}) {
     // A tilt of one degree runs through many quantisation steps.
-    const DepthFrame frame =
-        Seen({}, WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.0175});
+    const DepthFrame frame = Seen({}, WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.0175});
     const CameraModel camera = CameraModel::Pinhole(320, 240, 285.63);
     double sum2 = 0.0;
     int count = 0;
@@ -88,8 +87,8 @@ TEST(StructuredLightSensorTest, NoiseOnAWallGrowsWithTheSquareOfDistance) {
         if (frame.depth.raw(v, u) == 0) continue;
         const Eigen::Vector3d ray = *camera.UnprojectRay({u, v});
         // The wall's plane: n p = n (0, 0, z) with n = (-sin a, 0, -cos a) seen from azimuth a.
-        const double true_m = z_m * std::cos(0.0175) /
-                              (std::cos(0.0175) + std::sin(0.0175) * ray.x());
+        const double true_m =
+            z_m * std::cos(0.0175) / (std::cos(0.0175) + std::sin(0.0175) * ray.x());
         const double error_m = frame.depth.raw(v, u) * 0.001 - true_m;
         // Scaled to the distance of the wall's centre.
         sum2 += std::pow(error_m * std::pow(z_m / true_m, 2), 2);
@@ -129,7 +128,8 @@ TEST(StructuredLightSensorTest, TheProjectorsShadowIsLeftOfTheForegroundAndAsWid
 }
 
 TEST(StructuredLightSensorTest, BlackPaintDropsOutBetween1Point6And1Point9Metres) {
-  // 3 · 590 (0.05 / 0.8) / z² / 10.4 = 3.5 at z = 1.74 m; the noise of the evidence blurs the limit.
+  // 3 · 590 (0.05 / 0.8) / z² / 10.4 = 3.5 at z = 1.74 m; the noise of the evidence blurs the
+  // limit.
   const auto returned = [](double distance_m, double reflectance) {
     PaperTargetOptions options;
     options.wall_reflectance_830nm = reflectance;

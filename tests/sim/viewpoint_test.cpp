@@ -36,7 +36,8 @@ TEST(ViewpointTest, FromEveryPointOfTheSphereTheCentroidIsOnTheAxisAtTheDistance
 
 TEST(ViewpointTest, PositiveAzimuthIsToTheViewersRightAndElevationUp) {
   const Vector3d p_WB =
-      RigPose({.distance_m = 2.0, .azimuth_rad = 30 * kDegree, .elevation_rad = 20 * kDegree}, Pose())
+      RigPose({.distance_m = 2.0, .azimuth_rad = 30 * kDegree, .elevation_rad = 20 * kDegree},
+              Pose())
           .translation();
   EXPECT_NEAR(p_WB.x(), 2.0 * std::sin(30 * kDegree) * std::cos(20 * kDegree), 1e-15);
   EXPECT_NEAR(p_WB.y(), 2.0 * std::sin(20 * kDegree), 1e-15);

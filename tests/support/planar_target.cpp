@@ -53,7 +53,8 @@ cv::Mat1f PlaneDepth(const CameraModel& camera, const Pose& X_CO) {
   for (int v = 0; v < depth.rows; ++v) {
     for (int u = 0; u < depth.cols; ++u) {
       const auto hit = Intersect(camera, X_OC, {u, v});
-      depth(v, u) = hit ? static_cast<float>(hit->depth_m) : std::numeric_limits<float>::quiet_NaN();
+      depth(v, u) =
+          hit ? static_cast<float>(hit->depth_m) : std::numeric_limits<float>::quiet_NaN();
     }
   }
   return depth;

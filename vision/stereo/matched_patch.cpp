@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 namespace fenestra {
@@ -16,26 +18,66 @@ cv::Mat Block(int width, int height) {
   return cv::getStructuringElement(cv::MORPH_RECT, {width, height});
 }
 
-MatchedPatch DescribePatch(const cv::Mat1i& labels, int label, const cv::Rect& box,
-                           const cv::Mat1b& matched, const cv::Mat1f& disparity) {
-  MatchedPatch patch{.box = box, .area_px = 0, .hull = {}, .samples = {}};
-  const cv::Mat1b region = labels(box) == label;
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(region, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE, box.tl());
-  cv::convexHull(contours.front(), patch.hull);
-  const cv::Mat1b usable = region & matched(box);
-  patch.area_px = cv::countNonZero(usable);
+// Disparities between which others leave a gap of more than `step_px`: the upper ends of all
+// clusters but the last, in ascending order.
+std::vector<float> ClusterEnds(std::vector<float> disparities, double step_px) {
+  std::sort(disparities.begin(), disparities.end());
+  std::vector<float> ends;
+  for (size_t i = 1; i < disparities.size(); ++i) {
+    if (disparities[i] - disparities[i - 1] > step_px) ends.push_back(disparities[i - 1]);
+  }
+  return ends;
+}
+
+std::vector<float> ValuesOf(const cv::Mat1f& disparity, const cv::Mat1b& mask) {
+  std::vector<float> values;
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      if (mask(v, u) != 0) values.push_back(disparity(v, u));
+    }
+  }
+  return values;
+}
+
+// `usable`: the patch's pixels within `box`; at least one.
+MatchedPatch DescribePatch(const cv::Mat1b& usable, const cv::Rect& box,
+                           const cv::Mat1f& disparity) {
+  std::vector<cv::Point> pixels;
+  cv::findNonZero(usable, pixels);
+  for (cv::Point& pixel : pixels) pixel += box.tl();
+  MatchedPatch patch{.box = cv::boundingRect(pixels),
+                     .area_px = static_cast<int>(pixels.size()),
+                     .hull = {},
+                     .samples = {}};
+  cv::convexHull(pixels, patch.hull);
   // A grid, since every n-th pixel of a region n - 1 or n + 1 pixels wide is a slanted line.
   const int step = std::max(
       1, static_cast<int>(std::sqrt(patch.area_px / static_cast<double>(kSamplesPerPatch))));
-  for (int v = 0; v < box.height; v += step) {
-    for (int u = 0; u < box.width; u += step) {
-      if (usable(v, u) == 0) continue;
-      patch.samples.push_back({static_cast<float>(box.x + u), static_cast<float>(box.y + v),
-                               disparity(box.y + v, box.x + u)});
-    }
+  for (const cv::Point& pixel : pixels) {
+    if ((pixel.x - patch.box.x) % step != 0 || (pixel.y - patch.box.y) % step != 0) continue;
+    patch.samples.push_back(
+        {static_cast<float>(pixel.x), static_cast<float>(pixel.y), disparity(pixel)});
   }
   return patch;
+}
+
+// A connected region may hold several surfaces, or a surface and false matches beside it.
+std::vector<MatchedPatch> SplitByDisparity(const cv::Mat1b& usable, const cv::Rect& box,
+                                           const cv::Mat1f& disparity,
+                                           const PatchSettings& settings) {
+  std::vector<float> ends =
+      ClusterEnds(ValuesOf(disparity(box), usable), settings.disparity_step_px);
+  ends.push_back(std::numeric_limits<float>::max());
+  std::vector<MatchedPatch> patches;
+  float from = 0.0f;
+  for (const float to : ends) {
+    const cv::Mat1b cluster = usable & (disparity(box) > from) & (disparity(box) <= to);
+    from = to;
+    if (cv::countNonZero(cluster) == 0) continue;
+    MatchedPatch patch = DescribePatch(cluster, box, disparity);
+    if (patch.box.height >= settings.min_height_px) patches.push_back(std::move(patch));
+  }
+  return patches;
 }
 
 }  // namespace
@@ -52,21 +94,18 @@ std::vector<MatchedPatch> FindPatches(const cv::Mat1f& disparity, const PatchSet
   cv::Mat1i stats;
   cv::Mat1d centroids;
   const int count = cv::connectedComponentsWithStats(closed, labels, stats, centroids, 8, CV_32S);
-  std::vector<int> kept;
-  for (int i = 1; i < count; ++i) {
-    if (stats(i, cv::CC_STAT_HEIGHT) >= settings.min_height_px) kept.push_back(i);
-  }
-  std::stable_sort(kept.begin(), kept.end(), [&stats](int i, int j) {
-    return stats(i, cv::CC_STAT_AREA) > stats(j, cv::CC_STAT_AREA);
-  });
-  if (kept.size() > kMostPatches) kept.resize(kMostPatches);
   std::vector<MatchedPatch> patches;
-  for (const int i : kept) {
+  for (int i = 1; i < count; ++i) {
     const cv::Rect box(stats(i, cv::CC_STAT_LEFT), stats(i, cv::CC_STAT_TOP),
                        stats(i, cv::CC_STAT_WIDTH), stats(i, cv::CC_STAT_HEIGHT));
-    MatchedPatch patch = DescribePatch(labels, i, box, opened, disparity);
-    if (!patch.samples.empty()) patches.push_back(std::move(patch));
+    if (box.height < settings.min_height_px) continue;
+    const cv::Mat1b usable = (labels(box) == i) & opened(box);
+    std::vector<MatchedPatch> split = SplitByDisparity(usable, box, disparity, settings);
+    std::move(split.begin(), split.end(), std::back_inserter(patches));
   }
+  std::stable_sort(patches.begin(), patches.end(),
+                   [](const auto& p, const auto& q) { return p.area_px > q.area_px; });
+  if (patches.size() > kMostPatches) patches.resize(kMostPatches);
   return patches;
 }
 

@@ -7,7 +7,7 @@
 
 namespace fenestra {
 
-/// A connected region of matched pixels.
+/// A connected region of matched pixels whose disparities have no gap.
 struct MatchedPatch {
   cv::Rect box;
   int area_px = 0;
@@ -20,6 +20,8 @@ struct PatchSettings {
   int gap_height_px;  ///< Gaps between patches of the same columns are bridged up to this height.
   int gap_width_px;   ///< Likewise for patches of the same rows.
   int min_height_px;  ///< Patches that are less tall are dropped.
+  /// A region is split where its disparities leave a gap of more than this.
+  double disparity_step_px;
 };
 
 /// The largest connected patches of the matched pixels (disparity > 0), largest first: the

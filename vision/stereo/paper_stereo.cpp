@@ -71,21 +71,23 @@ PaperStereoDetector::PaperStereoDetector(const StereoCalibration& calibration,
       patches_{.opening_px = options.opening_px,
                .gap_height_px = options.gap_height_px,
                .gap_width_px = options.gap_width_px,
-               .min_height_px = options.min_band_height_px},
+               .min_height_px = options.min_band_height_px,
+               .disparity_step_px = options.speckle_step_px},
       criteria_(Criteria(options)),
       range_{options.nearest_m, options.farthest_m} {}
 
 Detection PaperStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   log.Begin("rectify");
   const RectifiedPair pair = rectification_.Rectify(StereoPart(observation));
-  log.Picture("rectified", [&] { return DrawRectifiedPair(pair); });
+  const std::array<PictureView, 2> views = RectifiedViews(rectification_);
+  log.Picture("rectified", [&] { return DrawRectifiedPair(pair); }, {views[0], views[1]});
 
   log.Begin("match");
   const cv::Mat1f disparity = Match(pair);
 
   log.Begin("depth_image");
   const cv::Mat1f depth_m = DepthFromDisparity(disparity, rectification_.camera());
-  log.Picture("depth_image", [&] { return DrawDepth(depth_m, range_); });
+  log.Picture("depth_image", [&] { return DrawDepth(depth_m, range_); }, {views[0]});
 
   log.Begin("close_gaps");
   Detection detection = FindWindow(disparity, log);
@@ -105,12 +107,13 @@ Detection PaperStereoDetector::FindWindow(const cv::Mat1f& disparity, StageLog& 
   const cv::Mat1f closed_m =
       CloseGaps(disparity, frame.hull, frame.plane, options_.plane_tolerance_px,
                 options_.sad_window_px, rectification_.camera());
-  log.Picture("closed_contour", [&] { return DrawDepth(closed_m, range_); });
+  const PictureView view = RectifiedViews(rectification_)[0];
+  log.Picture("closed_contour", [&] { return DrawDepth(closed_m, range_); }, {view});
 
   log.Begin("edges");
   const cv::Mat1b edges =
       DetectEdges(ToEightBit(closed_m, range_), {options_.canny_low_dn, options_.canny_high_dn});
-  log.Picture("edges", [&] { return cv::Mat(edges); });
+  log.Picture("edges", [&] { return cv::Mat(edges); }, {view});
 
   log.Begin("contour");
   const auto contour = LargestClosedContour(edges);

@@ -21,6 +21,23 @@ cv::Mat3b DrawRectifiedPair(const RectifiedPair& pair) {
   return picture;
 }
 
+std::array<PictureView, 2> RectifiedViews(const StereoRectification& rectification) {
+  const RectifiedCamera& camera = rectification.camera();
+  const cv::Size size = rectification.left_seen().size();
+  CameraParameters pinhole{.width_px = size.width,
+                           .height_px = size.height,
+                           .fx_px = camera.f_px,
+                           .fy_px = camera.f_px,
+                           .cx_px = camera.cx_px,
+                           .cy_px = camera.cy_px,
+                           .distortion = {}};
+  const Pose X_FL(rectification.R_LF().transpose(), Eigen::Vector3d::Zero());
+  const PictureView left{CameraModel(pinhole), X_FL};
+  pinhole.cx_px += size.width;  // The right image stands beside the left one.
+  const Pose X_RF = Pose::Translation({-camera.baseline_m, 0.0, 0.0});
+  return {left, PictureView{CameraModel(pinhole), X_RF * X_FL}};
+}
+
 cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range) {
   // Equal steps of 1/z, as they are equal steps of disparity.
   cv::Mat1f inverse;

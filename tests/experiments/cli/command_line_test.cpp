@@ -42,8 +42,8 @@ constexpr const char* kStudy =
     "  distance_m: [1.4]\n";
 
 TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
-  for (const char* command : {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd",
-                              "list"}) {
+  for (const char* command :
+       {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd", "list"}) {
     const Outcome outcome = Fenestra(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;
@@ -51,9 +51,8 @@ TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
 }
 
 TEST(CommandLineTest, TheVersionNamesTheLibraries) {
-  EXPECT_THAT(Fenestra("--version").text,
-              AllOf(HasSubstr("fenestra 0."), HasSubstr("Embree 3."), HasSubstr("OpenCV 4."),
-                    HasSubstr("PCL 1.")));
+  EXPECT_THAT(Fenestra("--version").text, AllOf(HasSubstr("fenestra 0."), HasSubstr("Embree 3."),
+                                                HasSubstr("OpenCV 4."), HasSubstr("PCL 1.")));
 }
 
 TEST(CommandLineTest, UnknownWordsGetAHint) {
@@ -136,8 +135,8 @@ TEST(CommandLineTest, RunReplayRenderAndDetectAgree) {
   const auto found = nlohmann::json::parse(detect.text);
   ASSERT_EQ(found["outcome"], "window");
   const auto truth = nlohmann::json::parse(ReadFile(folder / "trial/truth/truth.json"));
-  EXPECT_NEAR(found["centroid_m"][2].get<double>(),
-              truth["target"]["centroid_m"][2].get<double>(), 0.1);
+  EXPECT_NEAR(found["centroid_m"][2].get<double>(), truth["target"]["centroid_m"][2].get<double>(),
+              0.1);
 }
 
 TEST(CommandLineTest, DetectRefusesWhatItCannotUse) {

@@ -90,8 +90,11 @@ TEST(GuidedMatching, BringsBackTheRightSideOfAFarFrame) {
   settings.speckle_area_px = 200;
   const cv::Mat1f once =
       MatchBlocks(pair, rectification.left_seen(), rectification.right_seen(), settings);
-  const auto patches = FindPatches(
-      once, {.opening_px = 7, .gap_height_px = 25, .gap_width_px = 5, .min_height_px = 20});
+  const auto patches = FindPatches(once, {.opening_px = 7,
+                                          .gap_height_px = 25,
+                                          .gap_width_px = 5,
+                                          .min_height_px = 20,
+                                          .disparity_step_px = 1.0});
   const cv::Mat1f twice =
       MatchAgainNearPatches(pair, rectification.left_seen(), rectification.right_seen(), settings,
                             once, patches, 0.3 / 0.35);

@@ -35,8 +35,11 @@ cv::Mat1f Wall(const std::vector<cv::Rect>& matched, float disparity_px = kWall_
 }
 
 std::variant<FrameHypothesis, Miss> Find(const cv::Mat1f& disparity) {
-  const auto patches = FindPatches(
-      disparity, {.opening_px = 7, .gap_height_px = 25, .gap_width_px = 5, .min_height_px = 20});
+  const auto patches = FindPatches(disparity, {.opening_px = 7,
+                                               .gap_height_px = 25,
+                                               .gap_width_px = 5,
+                                               .min_height_px = 20,
+                                               .disparity_step_px = 1.0});
   return FindFrame(patches, disparity, kCamera, kCriteria);
 }
 
