@@ -50,6 +50,8 @@ cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left
   std::stable_sort(tallest.begin(), tallest.end(),
                    [](const auto* p, const auto* q) { return p->box.height > q->box.height; });
   cv::Mat1f result = disparity.clone();
+  // A double may be tall enough to be searched for, too: what the taller patch explained stays.
+  cv::Mat1b open(disparity.size(), 255);
   std::vector<float> searched;
   for (const MatchedPatch* patch : tallest) {
     if (searched.size() == kMostSearches) break;
@@ -64,7 +66,9 @@ cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left
     const cv::Mat1f again =
         MatchBlocks({pair.left.rowRange(band.rows), pair.right.rowRange(band.rows)},
                     left_seen.rowRange(band.rows), right_seen.rowRange(band.rows), band.settings);
-    again.copyTo(result.rowRange(band.rows), again > 0.0f);
+    const cv::Mat1b found = (again > 0.0f) & open.rowRange(band.rows);
+    again.copyTo(result.rowRange(band.rows), found);
+    open.rowRange(band.rows).setTo(0, found);
   }
   return result;
 }
