@@ -9,13 +9,6 @@
 namespace fenestra {
 namespace {
 
-/// Time for one detection in S. Zhou, G. Flores, R. Lozano, P. Castillo, "Vision-Based Window
-/// Estimation for MAV in Unknown Urban Environments", IFAC RED-UAS 2013, on a machine that the
-/// paper does not name.
-double PaperMilliseconds(SensorKind sensor) {
-  return sensor == SensorKind::kStereo ? 200.0 : 800.0;
-}
-
 std::string Millimetres(std::optional<double> value_m) {
   return Significant(ToMilli(value_m));
 }

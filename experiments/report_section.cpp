@@ -46,8 +46,24 @@ std::vector<ReportSection> MakeSections(std::span<const CellSummary> summaries) 
     section.has_attempts |= row.in_view + row.counts[Outcome::kOutOfView] > 0;
     section.has_empty_scenes |= row.without_target > 0;
   }
-  for (ReportSection& section : sections) section.varying = VaryingLevels(section);
+  // A section of a single cell shows its value of what varies in others.
+  std::vector<std::string> varying;
+  for (const ReportSection& section : sections) {
+    for (const std::string& name : VaryingLevels(section)) AppendNew(name, varying);
+  }
+  for (ReportSection& section : sections) {
+    section.varying = varying;
+    std::erase_if(section.varying, [&section](const std::string& name) {
+      return std::all_of(section.rows.begin(), section.rows.end(), [&name](const CellSummary* row) {
+        return LevelText(row->levels, name).empty();
+      });
+    });
+  }
   return sections;
+}
+
+double PaperMilliseconds(SensorKind sensor) {
+  return sensor == SensorKind::kStereo ? 200.0 : 800.0;
 }
 
 std::string Heading(const ReportSection& section) {

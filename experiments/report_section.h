@@ -17,7 +17,8 @@ struct ReportSection {
   std::vector<const CellSummary*> rows;
   /// In the order in which they first occur.
   std::vector<std::string> detectors;
-  /// Names of the levels that are not the same in all rows.
+  /// Names of the levels that are not the same in all rows of this or of another section, as far
+  /// as this section has them.
   std::vector<std::string> varying;
   bool has_attempts = false;      ///< Some trial has a target, in view or not.
   bool has_empty_scenes = false;  ///< Some trial has no target.
@@ -25,6 +26,11 @@ struct ReportSection {
 
 /// In the order in which part and sensor first occur.
 std::vector<ReportSection> MakeSections(std::span<const CellSummary> summaries);
+
+/// Time for one detection in S. Zhou, G. Flores, R. Lozano, P. Castillo, "Vision-Based Window
+/// Estimation for MAV in Unknown Urban Environments", IFAC RED-UAS 2013, on a machine that the
+/// paper does not name.
+double PaperMilliseconds(SensorKind sensor);
 
 /// "near: rgbd, paper-rgbd".
 std::string Heading(const ReportSection& section);

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "experiments/number_format.h"
 #include "experiments/report.h"
 #include "experiments/report_section.h"
@@ -16,9 +18,9 @@ TextTable TableOf(const ReportSection& section) {
   if (section.has_empty_scenes) {
     for (const char* heading : {"empty", "alarms", "clear"}) table.AddColumn(heading);
   }
-  table.AddColumn("crashed");
+  table.AddColumn("crash");
   if (section.has_attempts) {
-    for (const char* heading : {"out", "bias z", "RMSE z", "RMSE xy", "P95"}) {
+    for (const char* heading : {"out", "bias x", "bias y", "bias z", "RMSE xy", "RMSE z", "P95"}) {
       table.AddColumn(heading);
     }
   }
@@ -48,22 +50,53 @@ std::vector<std::string> Row(const ReportSection& section, const CellSummary& ro
   if (section.has_attempts) {
     add_count(row.counts[Outcome::kOutOfView]);
     const auto& errors = row.hit_errors;
-    add_mm(errors ? std::optional(errors->bias.z()) : std::nullopt);
-    add_mm(errors ? std::optional(errors->rmse_depth) : std::nullopt);
+    for (int axis = 0; axis < 3; ++axis) {
+      add_mm(errors ? std::optional(errors->bias[axis]) : std::nullopt);
+    }
     add_mm(errors ? std::optional(errors->rmse_across) : std::nullopt);
+    add_mm(errors ? std::optional(errors->rmse_depth) : std::nullopt);
     add_mm(row.p95_error_m);
   }
   cells.push_back(Significant(ToMilli(row.median_total_s)));
   return cells;
 }
 
+// "paper-stereo by stage [ms]: rectify 4.23, match 46.7, ..., of 61.2 (the paper: 200)": medians
+// over the cells of their medians.
+std::string StageLine(const ReportSection& section, const std::string& detector) {
+  std::vector<std::pair<std::string, std::vector<double>>> stages;
+  std::vector<double> totals;
+  for (const CellSummary* row : section.rows) {
+    if (row->detector != detector || !row->median_total_s) continue;
+    totals.push_back(*row->median_total_s);
+    for (const StageMedian& median : row->stage_medians) {
+      const auto same = [&median](const auto& stage) { return stage.first == median.stage; };
+      auto found = std::find_if(stages.begin(), stages.end(), same);
+      if (found == stages.end()) found = stages.insert(found, {median.stage, {}});
+      found->second.push_back(median.median_s);
+    }
+  }
+  if (totals.empty()) return "";
+  std::string text = detector + " by stage [ms]: ";
+  for (const auto& [stage, medians] : stages) {
+    text += fmt::format("{} {}, ", stage, Significant(1e3 * SampleQuantile(medians, 0.5)));
+  }
+  return text + fmt::format("of {} (the paper: {})\n",
+                            Significant(1e3 * SampleQuantile(totals, 0.5)),
+                            Significant(PaperMilliseconds(section.sensor)));
+}
+
 constexpr char kAttemptLegend[] =
-    "n: attempts, the target wholly in view = hit + gross + wrong + missed + crashed; out: not\n"
-    "attempted, the target not wholly in view. Lengths in mm: bias and RMSE over the hits, P95 of\n"
-    "the 3-D centroid error over all n, where an attempt without an estimate counts as inf.\n";
+    "n: attempts, the target wholly in view = hit + gross + wrong + missed + crash(ed); out: not\n"
+    "attempted, the target not wholly in view. Lengths in mm; x to the right, y down, z in depth: "
+    "bias\n"
+    "and RMSE over the hits, P95 of the 3-D error over all n, an attempt without estimate as "
+    "inf.\n";
 constexpr char kEmptySceneLegend[] =
-    "empty: scenes without a window = alarms (a window reported) + clear + crashed there.\n";
-constexpr char kTimeLegend[] = "time: median of the detector's total in ms. —: no such figure.\n";
+    "empty: scenes without a window = alarms (a window reported) + clear + crash(ed) there.\n";
+constexpr char kTimeLegend[] =
+    "time: median of the detector's total in ms, and by stage the median over the cells of their\n"
+    "medians. —: no such figure.\n";
 
 }  // namespace
 
@@ -74,7 +107,9 @@ std::string SummaryForTerminal(std::span<const CellSummary> summaries) {
   for (const ReportSection& section : MakeSections(summaries)) {
     TextTable table = TableOf(section);
     for (const CellSummary* row : section.rows) table.AddRow(Row(section, *row));
-    text += Heading(section) + "\n" + table.ToPlainText() + "\n";
+    text += Heading(section) + "\n" + table.ToPlainText();
+    for (const std::string& detector : section.detectors) text += StageLine(section, detector);
+    text += "\n";
     attempts |= section.has_attempts;
     empty_scenes |= section.has_empty_scenes;
   }

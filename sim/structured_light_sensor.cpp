@@ -7,24 +7,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "sim/dot_matching.h"
 #include "sim/srgb.h"
 
 namespace fenestra {
 namespace {
 
-// The sensor matches in an image of this width, whatever the width of the depth image.
-constexpr double kMatchingWidth = 640.0;
-// Landau's dot signal was fitted on a white wall.
-constexpr double kReferenceReflectance = 0.8;
-// 11 % of the area are dots: nine in a window of 9 x 9 (measured on the Kinect's pattern).
-constexpr double kDotsPerWindow = 9.0;
-// In both modes; Microsoft Kinect SDK 1.8.
-struct Range {
-  double nearest_m;
-  double farthest_m;
-};
-constexpr Range kDefaultRange{0.8, 4.0};
-constexpr Range kNearRange{0.4, 3.0};
 // Limits of the colour camera's automatic exposure: its shortest line time and one frame at 30 Hz.
 constexpr double kShortestColorExposure = 20e-6;
 constexpr double kLongestColorExposure = 1.0 / 30.0;
@@ -57,81 +45,6 @@ cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, int window_px) 
   cv::boxFilter(white, sums, CV_32F, {side, side}, {-1, -1}, false);
   return sums(cv::Rect({reach, reach}, size)) / static_cast<float>(side);
 }
-
-// What one depth pixel sees.
-struct Surface {
-  double z_m;
-  Eigen::Vector3d normal_C;
-  bool sees_projector;
-  double transmittance;
-  double reflectance_830nm;
-  double irradiance_830;
-};
-
-struct Reading {
-  NoReturn no_return = NoReturn::kNone;
-  double z_m = 0.0;
-};
-
-class Physics {
- public:
-  Physics(const StructuredLightOptions& options, const CameraModel& depth)
-      : o_(options),
-        range_(options.near_mode ? kNearRange : kDefaultRange),
-        disparity_times_z_(options.projector_baseline_m * depth.parameters().fx_px *
-                           kMatchingWidth / depth.width_px()) {}
-
-  // `ray` has z = 1. Noise variates: of the window's evidence and of the disparity.
-  Reading Read(const Surface& s, const Eigen::Vector3d& ray, double evidence_noise,
-               double disparity_noise) const {
-    if (!std::isfinite(s.z_m)) return {NoReturn::kNoSurface};
-    if (s.z_m < range_.nearest_m || s.z_m > range_.farthest_m) return {NoReturn::kRange};
-    if (!s.sees_projector) return {NoReturn::kShadow};
-
-    const Eigen::Vector3d p_CQ = s.z_m * ray;
-    const Eigen::Vector3d to_projector = Eigen::Vector3d(o_.projector_baseline_m, 0.0, 0.0) - p_CQ;
-    const double cos_camera = -s.normal_C.dot(p_CQ.normalized());
-    const double cos_projector = s.normal_C.dot(to_projector.normalized());
-    if (std::min(cos_camera, cos_projector) < std::cos(o_.grazing_limit_rad)) {
-      return {NoReturn::kGrazing};
-    }
-    const NoReturn evidence =
-        Evidence(s, cos_projector, to_projector.squaredNorm(), evidence_noise);
-    if (evidence != NoReturn::kNone) return {evidence};
-
-    const double disparity_px =
-        disparity_times_z_ / s.z_m + o_.disparity_noise_px * disparity_noise;
-    const double step_px = o_.disparity_step_px;
-    const double quantised_px =
-        step_px > 0.0 ? step_px * std::round(disparity_px / step_px) : disparity_px;
-    const double z_m = disparity_times_z_ / quantised_px;
-    if (!(z_m >= range_.nearest_m && z_m <= range_.farthest_m)) return {NoReturn::kRange};
-    return {NoReturn::kNone, z_m};
-  }
-
- private:
-  // Whether the dots of a window stand out of the noise of the infra-red image.
-  NoReturn Evidence(const Surface& s, double cos_projector, double squared_distance,
-                    double noise) const {
-    const double reflected = o_.dot_signal_dn * s.reflectance_830nm / kReferenceReflectance;
-    // The pattern passes a pane of glass twice, ambient light on the surface once.
-    const double dot_dn =
-        reflected * cos_projector / squared_distance * s.transmittance * s.transmittance;
-    const double ambient_dn =
-        reflected * s.transmittance * (s.irradiance_830 * o_.filter_width_nm / o_.dot_irradiance);
-    if (ambient_dn >= o_.saturation_dn) return NoReturn::kSaturated;
-    // A dot may saturate; what counts is how far it stands out of its surroundings.
-    const double contrast_dn = std::min(dot_dn, o_.saturation_dn - ambient_dn);
-    const double noise_dn = std::sqrt(o_.dark_noise_dn * o_.dark_noise_dn +
-                                      o_.shot_noise_dn * (contrast_dn + ambient_dn));
-    const double window_snr = std::sqrt(kDotsPerWindow) * contrast_dn / noise_dn;
-    return window_snr + noise < o_.matching_snr ? NoReturn::kDark : NoReturn::kNone;
-  }
-
-  const StructuredLightOptions& o_;
-  Range range_;
-  double disparity_times_z_;  // f b [px m]
-};
 
 }  // namespace
 
@@ -172,7 +85,7 @@ StructuredLightSensor::DepthFrame StructuredLightSensor::ObserveDepth(
     const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
     const RandomStream& shot) const {
   const cv::Size size(nominal_.depth.width_px(), nominal_.depth.height_px());
-  const double matching_scale = size.width / kMatchingWidth;
+  const double matching_scale = size.width / DotMatching::kImageWidth;
 
   // Lateral noise: the window's centre of evidence is not the pixel's centre.
   AovOptions aov_options{.offsets_px = cv::Mat2f(size),
@@ -188,7 +101,7 @@ StructuredLightSensor::DepthFrame StructuredLightSensor::ObserveDepth(
   const cv::Mat1f disparity_noise = WindowNoise(shot.Child("disparity"), size, window_px);
   const cv::Mat1f evidence_noise = WindowNoise(shot.Child("evidence"), size, window_px);
 
-  const Physics physics(options_, nominal_.depth);
+  const DotMatching matching(options_, nominal_.depth);
   DepthFrame frame{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = nominal_.depth_unit_m},
                    .no_return = cv::Mat1b::zeros(size)};
   for (int v = 0; v < size.height; ++v) {
@@ -196,14 +109,14 @@ StructuredLightSensor::DepthFrame StructuredLightSensor::ObserveDepth(
       const cv::Vec2f offset = aov_options.offsets_px(v, u);
       const auto ray = nominal_.depth.UnprojectRay({u + offset[0], v + offset[1]});
       const cv::Vec3f& n = aovs.normal_C(v, u);
-      const Surface surface{.z_m = aovs.depth_m(v, u),
-                            .normal_C = {n[0], n[1], n[2]},
-                            .sees_projector = aovs.sees_point(v, u) != 0,
-                            .transmittance = aovs.transmittance(v, u),
-                            .reflectance_830nm = aovs.reflectance_830nm(v, u),
-                            .irradiance_830 = aovs.irradiance_830(v, u)};
-      const Reading reading =
-          physics.Read(surface, *ray, evidence_noise(v, u), disparity_noise(v, u));
+      const LitSurface surface{.z_m = aovs.depth_m(v, u),
+                               .normal_C = {n[0], n[1], n[2]},
+                               .sees_projector = aovs.sees_point(v, u) != 0,
+                               .transmittance = aovs.transmittance(v, u),
+                               .reflectance_830nm = aovs.reflectance_830nm(v, u),
+                               .irradiance_830 = aovs.irradiance_830(v, u)};
+      const DepthReading reading =
+          matching.Read(surface, *ray, evidence_noise(v, u), disparity_noise(v, u));
       frame.no_return(v, u) = static_cast<unsigned char>(reading.no_return);
       frame.depth.raw(v, u) = static_cast<uint16_t>(std::lround(reading.z_m / frame.depth.unit_m));
     }
