@@ -2,30 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
+#include "experiments/geometry_json.h"
 
 namespace fenestra {
 namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json ToJson(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-ordered_json ToJson(const WindowEstimate& estimate) {
-  ordered_json corners = ordered_json::array();
-  for (const Eigen::Vector3d& p_CV : estimate.p_CV) corners.push_back(ToJson(p_CV));
+ordered_json EstimateJson(const WindowEstimate& estimate) {
   ordered_json json = {{"centroid_m", ToJson(estimate.p_CO)},
-                       {"corners_m", corners},
+                       {"corners_m", ToJson(estimate.p_CV)},
                        {"normal", ToJson(estimate.normal_C)}};
-  if (estimate.covariance_C) {
-    ordered_json rows = ordered_json::array();
-    for (int i = 0; i < 3; ++i) {
-      rows.push_back(ToJson(Eigen::Vector3d(estimate.covariance_C->row(i))));
-    }
-    json["centroid_covariance_m2"] = rows;
-  }
+  if (estimate.covariance_C) json["centroid_covariance_m2"] = ToJson(*estimate.covariance_C);
   return json;
 }
 
@@ -40,7 +28,7 @@ std::string DetectionJson(const std::string& detector, const Detection& detectio
     json["detail"] = miss->detail;
   } else {
     json["outcome"] = "window";
-    json.update(ToJson(std::get<WindowEstimate>(detection)));
+    json.update(EstimateJson(std::get<WindowEstimate>(detection)));
   }
   for (const StageTime& time : log.times()) json["stage_seconds"][time.stage] = time.seconds;
   return json.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "core/check.h"
+#include "experiments/geometry_json.h"
 
 namespace fenestra {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 // nlohmann-json writes a double in the shortest form that reads back exactly, -0.0 included.
 using Json = nlohmann::ordered_json;
 
-Json ToJson(const ParameterValue& value) {
+Json ValueToJson(const ParameterValue& value) {
   if (const bool* flag = std::get_if<bool>(&value)) return *flag;
   if (const std::string* word = std::get_if<std::string>(&value)) return *word;
   const double number = std::get<double>(value);
@@ -28,11 +28,6 @@ ParameterValue ToParameterValue(const Json& json) {
   if (json.is_string()) return json.get<std::string>();
   if (json.is_number()) return json.get<double>();
   return std::strtod(json.at("number").get_ref<const std::string&>().c_str(), nullptr);
-}
-
-Json ToJson(const Eigen::Vector3d& v) {
-  FENESTRA_CHECK(v.allFinite(), "JSON has no number for it");
-  return {v.x(), v.y(), v.z()};
 }
 
 Eigen::Vector3d ToVector(const Json& json) {
@@ -64,7 +59,7 @@ std::string FactorsToJson(const FactorValues& factors) {
   Json json = Json::object();
   for (const auto& [name, value] : factors) {
     FENESTRA_CHECK(!json.contains(name), "factor named twice: " + name);
-    json[name] = ToJson(value);
+    json[name] = ValueToJson(value);
   }
   return Dump(json);
 }
@@ -102,9 +97,7 @@ std::vector<StageTime> StageTimesFromJson(const std::string& text) {
 }
 
 std::string CornersToJson(const std::array<Eigen::Vector3d, 4>& corners) {
-  Json json = Json::array();
-  for (const Eigen::Vector3d& corner : corners) json.push_back(ToJson(corner));
-  return Dump(json);
+  return Dump(ToJson(corners));
 }
 
 std::array<Eigen::Vector3d, 4> CornersFromJson(const std::string& text) {
@@ -116,9 +109,7 @@ std::array<Eigen::Vector3d, 4> CornersFromJson(const std::string& text) {
 }
 
 std::string MatrixToJson(const Eigen::Matrix3d& matrix) {
-  Json json = Json::array();
-  for (int row = 0; row < 3; ++row) json.push_back(ToJson(Eigen::Vector3d(matrix.row(row))));
-  return Dump(json);
+  return Dump(ToJson(matrix));
 }
 
 Eigen::Matrix3d MatrixFromJson(const std::string& text) {

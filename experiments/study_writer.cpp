@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include "experiments/versions.h"
+
 namespace fenestra {
 namespace {
 
@@ -75,7 +77,7 @@ std::string ToYaml(const std::variant<Levels, Distribution>& setting) {
 std::string ToYaml(const Study& study) {
   std::string text = fmt::format(
       "fenestra_version: {}\nname: {}\ndescription: {}\nseed: {}\nindependent_cells: {}\nparts:\n",
-      FENESTRA_VERSION, study.name, Quoted(study.description), study.seed, study.independent_cells);
+      Version(), study.name, Quoted(study.description), study.seed, study.independent_cells);
   for (const StudyPart& part : study.parts) text += Text(part);
   return text;
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
 #include "core/calibration_io.h"
 #include "core/image_io.h"
+#include "experiments/geometry_json.h"
 #include "experiments/pcd.h"
 #include "experiments/trial_drawing.h"
 #include "renderers/exr_io.h"
@@ -17,23 +17,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
-ordered_json ToJson(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-ordered_json ToJson(const Pose& X) {
-  const Eigen::Matrix3d& R = X.rotation();
-  return {{"rotation",
-           {ToJson(Eigen::Vector3d(R.row(0))), ToJson(Eigen::Vector3d(R.row(1))),
-            ToJson(Eigen::Vector3d(R.row(2)))}},
-          {"translation_m", ToJson(X.translation())}};
-}
-
-ordered_json ToJson(const WindowTruth& window) {
-  ordered_json corners = ordered_json::array();
-  for (const Eigen::Vector3d& p_CV : window.p_CV) corners.push_back(ToJson(p_CV));
+ordered_json WindowJson(const WindowTruth& window) {
   return {{"centroid_m", ToJson(window.p_CO)},
-          {"corners_m", corners},
+          {"corners_m", ToJson(window.p_CV)},
           {"normal", ToJson(window.normal_C)},
           {"width_m", window.width_m},
           {"height_m", window.height_m}};
@@ -154,10 +140,10 @@ std::string TruthJson(const SimulatedTrial& simulated) {
   const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
   ordered_json json = {{stereo ? "world_from_left" : "world_from_depth", ToJson(truth.X_WC)},
                        {"target_in_view", truth.in_view},
-                       {"target", truth.target ? ToJson(*truth.target) : ordered_json()},
+                       {"target", truth.target ? WindowJson(*truth.target) : ordered_json()},
                        {"other_windows", ordered_json::array()}};
   for (const WindowTruth& window : truth.other_windows) {
-    json["other_windows"].push_back(ToJson(window));
+    json["other_windows"].push_back(WindowJson(window));
   }
   return json.dump(2) + "\n";
 }

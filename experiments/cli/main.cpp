@@ -52,8 +52,11 @@ std::vector<std::string> KnownCommands(const CLI::App& app) {
 int ReportParseError(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App* app = Innermost(&program);
   const std::vector<std::string> unknown = app->remaining(true);
+  const auto is_flag = [](const std::string& word) { return word.starts_with("-"); };
+  const bool flags = std::any_of(unknown.begin(), unknown.end(), is_flag);
   for (const std::string& word : unknown) {
-    const bool flag = word.starts_with("-");
+    const bool flag = is_flag(word);
+    if (flags && !flag) continue;  // Most likely the value of an unknown option.
     const std::vector<std::string> known = flag ? KnownFlags(*app) : KnownCommands(*app);
     const std::string name = word.substr(0, word.find('='));
     fmt::print(stderr, "fenestra: unknown {} '{}'.{}\n", flag ? "option" : "argument", word,
