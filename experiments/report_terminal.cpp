@@ -68,6 +68,7 @@ std::string StageLine(const ReportSection& section, const std::string& detector)
   std::vector<double> totals;
   for (const CellSummary* row : section.rows) {
     if (row->detector != detector || !row->median_total_s) continue;
+    if (section.has_attempts && row->counts[Outcome::kHit] == 0) continue;
     totals.push_back(*row->median_total_s);
     for (const StageMedian& median : row->stage_medians) {
       const auto same = [&median](const auto& stage) { return stage.first == median.stage; };
@@ -95,8 +96,8 @@ constexpr char kAttemptLegend[] =
 constexpr char kEmptySceneLegend[] =
     "empty: scenes without a window = alarms (a window reported) + clear + crash(ed) there.\n";
 constexpr char kTimeLegend[] =
-    "time: median of the detector's total in ms, and by stage the median over the cells of their\n"
-    "medians. —: no such figure.\n";
+    "time: median of the detector's total in ms, and by stage the median over the cells with hits of\n"
+    "their medians. —: no such figure.\n";
 
 }  // namespace
 
