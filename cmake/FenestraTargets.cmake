@@ -15,6 +15,9 @@ if(FENESTRA_SANITIZE)
   target_compile_options(fenestra_options INTERFACE
     -fsanitize=${FENESTRA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(fenestra_options INTERFACE -fsanitize=${FENESTRA_SANITIZE})
+  # Under the address sanitizer Eigen would pad its allocations; PCL's library, which was built
+  # without, hands over memory that it does not. The sanitizer's malloc is aligned to 16 bytes, too.
+  target_compile_definitions(fenestra_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 find_program(MOLD mold)
 if(MOLD)
