@@ -29,6 +29,7 @@ void Validate(const Lighting& lighting) {
          sky.ground_reflectance >= 0.0 && sky.ground_reflectance <= 1.0, "in [0, 1]");
   demand("irradiance_830_per_lux", lighting.irradiance_830_per_lux,
          lighting.irradiance_830_per_lux >= 0.0, "0 or more");
+  demand("lamp_dimmer", lighting.lamp_dimmer, lighting.lamp_dimmer >= 0.0, "0 or more");
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

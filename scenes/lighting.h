@@ -20,22 +20,30 @@ struct Sun {
   Eigen::Vector3d Direction_W() const;
 };
 
-/// A sky dome of uniform luminance above the horizon and a Lambert ground below it.
+/// A sky dome above the horizon and, below it, a Lambert ground that sky and sun light.
 struct Sky {
-  double illuminance_lx = 500.0;    ///< On an unobstructed horizontal plane: π · luminance.
-  double ground_reflectance = 0.2;  ///< Of the ground, lit by the sky alone.
+  /// How luminance is spread over the dome; see SkyDome.
+  enum class Model {
+    kUniform,
+    kCieOvercast,  ///< Three times as bright at the zenith as at the horizon.
+    kCieClear,  ///< Brightest around the sun, whose position counts even if its illuminance is 0.
+  };
+  Model model = Model::kUniform;
+  double illuminance_lx = 500.0;    ///< On an unobstructed horizontal plane.
+  double ground_reflectance = 0.2;  ///< Of the unobstructed ground.
 };
 
 /// All light of a scene; radiance is linear in each illuminance. `irradiance_830_per_lux` turns
-/// illuminance into spectral irradiance at 830 nm: daylight by default, 0 for LED lamps.
+/// the illuminance of sun and sky into spectral irradiance at 830 nm: daylight by default.
 struct Lighting {
   Sun sun;
   Sky sky;
   double irradiance_830_per_lux = kDaylightIrradiance830PerLux;
+  double lamp_dimmer = 1.0;  ///< Multiplies the light of all lamps of the scene; 0: off.
 };
 
-/// Throws InputError, with all faults, unless all numbers are finite, illuminances are not negative
-/// and the ground's reflectance is in [0, 1].
+/// Throws InputError, with all faults, unless all numbers are finite, illuminances and the dimmer
+/// not negative and the ground's reflectance is in [0, 1].
 void Validate(const Lighting& lighting);
 
 }  // namespace fenestra

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
 
 #include "core/input_error.h"
 
@@ -14,7 +16,16 @@ bool InUnitInterval(float x) {
   return x >= 0.0f && x <= 1.0f;  // False for NaN.
 }
 
-void CheckMaterial(const Material& material, size_t index, std::vector<InputFault>& faults) {
+bool IsFinite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+bool IsLight(float x) {
+  return std::isfinite(x) && x >= 0.0f;
+}
+
+void CheckMaterial(const Material& material, size_t index, size_t texture_count,
+                   std::vector<InputFault>& faults) {
   const auto demand = [&](bool holds, const char* message) {
     if (holds) return;
     faults.push_back(
@@ -29,6 +40,43 @@ void CheckMaterial(const Material& material, size_t index, std::vector<InputFaul
   demand(InUnitInterval(rgb.r) && InUnitInterval(rgb.g) && InUnitInterval(rgb.b) &&
              InUnitInterval(material.reflectance_830nm),
          "reflectances must be in [0, 1]");
+  const glm::vec3& emission = material.emission_rgb;
+  demand(IsLight(emission.r) && IsLight(emission.g) && IsLight(emission.b) &&
+             IsLight(material.emission_830nm),
+         "emissions must be 0 or more");
+  demand(InUnitInterval(material.alpha_cutoff), "the alpha cutoff must be in [0, 1]");
+  demand(!material.texture || *material.texture < texture_count, "its texture does not exist");
+}
+
+void CheckTexture(const Texture& texture, size_t index, std::vector<InputFault>& faults) {
+  if (texture.width_px > 0 && texture.height_px > 0 &&
+      texture.texels.size() ==
+          static_cast<size_t>(texture.width_px) * static_cast<size_t>(texture.height_px)) {
+    return;
+  }
+  faults.push_back(
+      {"scene", 0, 0,
+       fmt::format("texture {} '{}': {} texels do not make {} x {}", index, texture.name,
+                   texture.texels.size(), texture.width_px, texture.height_px)});
+}
+
+void CheckLamp(const Lamp& lamp, size_t index, std::vector<InputFault>& faults) {
+  const auto demand = [&](bool holds, const char* message) {
+    if (holds) return;
+    faults.push_back({"scene", 0, 0, fmt::format("lamp {} '{}': {}", index, lamp.name, message)});
+  };
+  const glm::vec3& I = lamp.intensity_rgb;
+  demand(lamp.p_WL.allFinite(), "its position must be finite");
+  demand(IsLight(I.r) && IsLight(I.g) && IsLight(I.b) &&
+             std::isfinite(lamp.irradiance_830_per_lux) && lamp.irradiance_830_per_lux >= 0.0,
+         "intensities must be 0 or more");
+  if (!lamp.cone) return;
+  constexpr double kUnitTolerance = 1e-6;
+  demand(std::abs(lamp.cone->axis_W.norm() - 1.0) < kUnitTolerance,
+         "its axis must be a unit vector");
+  demand(lamp.cone->inner_rad >= 0.0 && lamp.cone->inner_rad < lamp.cone->outer_rad &&
+             lamp.cone->outer_rad <= 0.5 * std::numbers::pi,
+         "the cone's angles must be 0 <= inner < outer <= 90 degrees");
 }
 
 void CheckMesh(const Mesh& mesh, size_t index, size_t material_count,
@@ -38,12 +86,27 @@ void CheckMesh(const Mesh& mesh, size_t index, size_t material_count,
     faults.push_back({"scene", 0, 0, fmt::format("mesh {} '{}': {}", index, mesh.name, message)});
   };
   demand(mesh.material < material_count, "its material does not exist");
-  demand(std::ranges::all_of(mesh.positions_W,
-                             [](const glm::vec3& p) {
-                               return std::isfinite(p.x) && std::isfinite(p.y) &&
-                                      std::isfinite(p.z);
+  demand(std::ranges::all_of(mesh.positions_W, IsFinite), "positions must be finite");
+  const auto complete = [&mesh](const auto& values) {
+    return values.empty() || values.size() == mesh.positions_W.size();
+  };
+  demand(complete(mesh.texture_coordinates) && complete(mesh.colors) && complete(mesh.normals_W),
+         "texture coordinates, colours and normals must be one per position or none");
+  demand(std::ranges::all_of(
+             mesh.texture_coordinates,
+             [](const glm::vec2& uv) { return std::isfinite(uv.x) && std::isfinite(uv.y); }),
+         "texture coordinates must be finite");
+  demand(std::ranges::all_of(mesh.colors,
+                             [](const glm::vec3& c) {
+                               return InUnitInterval(c.r) && InUnitInterval(c.g) &&
+                                      InUnitInterval(c.b);
                              }),
-         "positions must be finite");
+         "colours must be in [0, 1]");
+  constexpr float kUnitTolerance = 1e-3f;
+  demand(std::ranges::all_of(
+             mesh.normals_W,
+             [](const glm::vec3& n) { return std::abs(glm::length(n) - 1.0f) < kUnitTolerance; }),
+         "normals must be unit vectors");
   const size_t count = mesh.positions_W.size();
   demand(std::ranges::all_of(
              mesh.triangles,
@@ -73,8 +136,10 @@ std::array<Eigen::Vector3d, 4> TargetWindow::Corners_W() const {
 void Validate(const Scene& scene) {
   std::vector<InputFault> faults;
   for (size_t i = 0; i < scene.materials.size(); ++i) {
-    CheckMaterial(scene.materials[i], i, faults);
+    CheckMaterial(scene.materials[i], i, scene.textures.size(), faults);
   }
+  for (size_t i = 0; i < scene.textures.size(); ++i) CheckTexture(scene.textures[i], i, faults);
+  for (size_t i = 0; i < scene.lamps.size(); ++i) CheckLamp(scene.lamps[i], i, faults);
   for (size_t i = 0; i < scene.meshes.size(); ++i) {
     CheckMesh(scene.meshes[i], i, scene.materials.size(), faults);
   }

@@ -3,12 +3,15 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/pose.h"
+#include "scenes/lamp.h"
+#include "scenes/texture.h"
 
 namespace fenestra {
 
@@ -16,8 +19,9 @@ namespace fenestra {
 /// 830 nm, the structured-light projector's wavelength: a black paint may be bright there.
 struct Material {
   enum class Kind {
-    kLambert,  ///< Radiance = reflectance · irradiance / π, the same in all directions.
-    kGlass,    ///< A thin clear pane: Fresnel mirror and transmission, no scattering.
+    /// Radiance = emission + reflectance · irradiance / π, the same in all directions.
+    kLambert,
+    kGlass,  ///< A thin clear pane: Fresnel mirror and transmission, no scattering.
   };
 
   std::string name;
@@ -25,6 +29,13 @@ struct Material {
   glm::vec3 reflectance_rgb{0.0f};  ///< Lambert only; linear, each in [0, 1].
   float reflectance_830nm = 0.0f;   ///< Lambert only; in [0, 1].
   float refractive_index = 1.52f;   ///< Glass only; 1.52: soda-lime float glass.
+  glm::vec3 emission_rgb{0.0f};  ///< Lambert only; own radiance of both sides [cd/m²], 0 or more.
+  float emission_830nm = 0.0f;   ///< Lambert only; own radiance at 830 nm [W/(m² sr nm)].
+  /// Index into Scene::textures; Lambert only. Multiplies reflectance and emission: in the visible
+  /// per colour, at 830 nm by its luminance. Without texture coordinates a mesh has no texture.
+  std::optional<uint32_t> texture;
+  /// Where the texture's alpha is below this there is a hole in the surface. 0: no holes.
+  float alpha_cutoff = 0.0f;
 };
 
 /// Triangles of one object and one material. A surface is two-sided unless it is closed.
@@ -36,6 +47,13 @@ struct Mesh {
   /// Bounds a solid body on whose inside no light falls; triangles wind counter-clockwise as seen
   /// from outside.
   bool closed = false;
+  /// One per position, or none. (0, 0) is the texture's top left corner, (1, 1) its bottom right.
+  std::vector<glm::vec2> texture_coordinates;
+  /// One per position, or none: multiplies reflectance and emission; linear, each in [0, 1].
+  std::vector<glm::vec3> colors;
+  /// One unit vector per position, or none: a smooth surface that the triangles approximate. They
+  /// shade; shadows and silhouettes are those of the triangles.
+  std::vector<glm::vec3> normals_W;
 };
 
 /// The window whose truth is scored. Frame O: origin at the centre of the frame's front outer
@@ -56,13 +74,15 @@ struct TargetWindow {
 struct Scene {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;
+  std::vector<Texture> textures;
+  std::vector<Lamp> lamps;
   std::optional<TargetWindow> target;  ///< Absent in a scene without a window.
   /// Other windows: a detection of one of them is a `wrong_window`.
   std::vector<TargetWindow> other_windows;
 };
 
-/// Throws InputError unless all indices are in range, all numbers finite and reflectances in
-/// [0, 1].
+/// Throws InputError, with all faults, unless all indices are in range, all numbers finite,
+/// reflectances in [0, 1], emissions and intensities 0 or more, and the data per position complete.
 void Validate(const Scene& scene);
 
 }  // namespace fenestra
