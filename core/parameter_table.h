@@ -138,7 +138,8 @@ class ParameterTable {
 
   ParameterTable& Add(ParameterInfo info, Getter get, Setter set) {
     FENESTRA_CHECK(Find(info.name) == nullptr, "parameter named twice: " + info.name);
-    info.default_value = get(Settings{});
+    const Settings defaults = Settings();
+    info.default_value = get(defaults);
     infos_.push_back(std::move(info));
     getters_.push_back(std::move(get));
     setters_.push_back(std::move(set));

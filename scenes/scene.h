@@ -33,7 +33,7 @@ struct Material {
   float emission_830nm = 0.0f;   ///< Lambert only; own radiance at 830 nm [W/(m² sr nm)].
   /// Index into Scene::textures; Lambert only. Multiplies reflectance and emission: in the visible
   /// per colour, at 830 nm by its luminance. Without texture coordinates a mesh has no texture.
-  std::optional<uint32_t> texture;
+  std::optional<uint32_t> texture{};
   /// Where the texture's alpha is below this there is a hole in the surface. 0: no holes.
   float alpha_cutoff = 0.0f;
 };
@@ -48,12 +48,12 @@ struct Mesh {
   /// from outside.
   bool closed = false;
   /// One per position, or none. (0, 0) is the texture's top left corner, (1, 1) its bottom right.
-  std::vector<glm::vec2> texture_coordinates;
+  std::vector<glm::vec2> texture_coordinates{};
   /// One per position, or none: multiplies reflectance and emission; linear, each in [0, 1].
-  std::vector<glm::vec3> colors;
+  std::vector<glm::vec3> colors{};
   /// One unit vector per position, or none: a smooth surface that the triangles approximate. They
   /// shade; shadows and silhouettes are those of the triangles.
-  std::vector<glm::vec3> normals_W;
+  std::vector<glm::vec3> normals_W{};
 };
 
 /// The window whose truth is scored. Frame O: origin at the centre of the frame's front outer

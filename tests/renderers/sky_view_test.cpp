@@ -92,7 +92,7 @@ TEST(SkyView, IsInterpolatedBetweenCorners) {
 }
 
 TEST(SkyView, OfAFacadeIsNothingInsideAndNowhereMoreThanTheUnobstructedOne) {
-  const TracedScene traced(MakeFacade({.frame_setback_m = 0.1}));
+  const TracedScene traced(MakeFacade({.window = {.setback_m = 0.1}}));
   const auto views = BakeSkyViews(traced);
   for (size_t t = 0; t < traced.opaque().size(); ++t) {
     const float n_y = traced.opaque().normals_W[t].y;
