@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kPipeSides = 16;
-constexpr int kThinSides = 8;
+constexpr int kThinSides = 6;
 constexpr double kPipeSlice_m = 0.25;
 constexpr double kCableSlice_m = 0.4;
 constexpr double kRailingBeyond_m = 0.10;   // Wider than the opening, on both sides.

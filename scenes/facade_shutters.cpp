@@ -13,7 +13,7 @@ constexpr double kHinge_m = 0.02;      // From the opening's side to the leaf.
 constexpr double kClearance_m = 0.03;  // Between wall and leaf.
 constexpr double kThickness_m = 0.03;
 constexpr double kRim_m = 0.06;
-constexpr double kSlatPitch_m = 0.05;
+constexpr double kSlatPitch_m = 0.06;
 constexpr double kSlatThickness_m = 0.006;
 const double kSlatTilt_rad = std::numbers::pi / 4.0;
 

@@ -12,21 +12,26 @@ namespace {
 
 constexpr uint32_t kWhole = std::numeric_limits<uint32_t>::max();
 
+using Allowed = std::function<double(const glm::vec3&)>;
+
 struct Edge {
   uint32_t a;
   uint32_t b;
   double squared_length;
-  bool marked;
+  bool marked;               // To be split.
   uint32_t middle = kWhole;  // Its position, once it is split.
 };
 
 // The edges of a surface as it is now; corner k and the next corner make edge k of a triangle.
 class EdgeTable {
  public:
-  explicit EdgeTable(const SolidSurface& surface) : surface_(surface) {
-    of_triangle_.reserve(surface.triangles.size());
-    index_.reserve(2 * surface.triangles.size());
-    for (const SolidSurface::Triangle& t : surface.triangles) {
+  EdgeTable(const SolidSurface& surface, const Allowed& longest_edge_m)
+      : surface_(surface), longest_edge_m_(longest_edge_m) {}
+
+  // Makes the edges of new triangles and marks those that are too long. An edge is judged once.
+  void Update() {
+    of_triangle_.clear();
+    for (const SolidSurface::Triangle& t : surface_.triangles) {
       std::array<uint32_t, 3> edges{};
       for (int k = 0; k < 3; ++k) {
         edges[static_cast<size_t>(k)] = IndexOf(t.corners[k], t.corners[(k + 1) % 3]);
@@ -38,6 +43,9 @@ class EdgeTable {
   std::vector<Edge>& edges() { return edges_; }
   Edge& EdgeOf(size_t triangle, int k) {
     return edges_[of_triangle_[triangle][static_cast<size_t>(k % 3)]];
+  }
+  glm::vec3 MiddleOf(const Edge& edge) const {
+    return 0.5f * (surface_.positions_W[edge.a] + surface_.positions_W[edge.b]);
   }
 
   // The first of the longest edges.
@@ -59,12 +67,16 @@ class EdgeTable {
     if (is_new) {
       const glm::dvec3 along =
           glm::dvec3(surface_.positions_W[b]) - glm::dvec3(surface_.positions_W[a]);
-      edges_.push_back({.a = a, .b = b, .squared_length = glm::dot(along, along), .marked = false});
+      Edge edge{.a = a, .b = b, .squared_length = glm::dot(along, along), .marked = false};
+      const double allowed_m = longest_edge_m_(MiddleOf(edge));
+      edge.marked = edge.squared_length > allowed_m * allowed_m;
+      edges_.push_back(edge);
     }
     return entry->second;
   }
 
   const SolidSurface& surface_;
+  const Allowed& longest_edge_m_;
   std::vector<Edge> edges_;
   std::vector<std::array<uint32_t, 3>> of_triangle_;
   std::unordered_map<uint64_t, uint32_t> index_;
@@ -117,23 +129,16 @@ void SplitTriangle(const SolidSurface::Triangle& triangle, size_t index, EdgeTab
 
 void BisectLongEdges(SolidSurface& surface,
                      const std::function<double(const glm::vec3&)>& longest_edge_m) {
-  for (;;) {
-    EdgeTable table(surface);
-    bool any = false;
-    const auto middle_of = [&surface](const Edge& edge) {
-      return 0.5f * (surface.positions_W[edge.a] + surface.positions_W[edge.b]);
-    };
-    for (Edge& edge : table.edges()) {
-      const double allowed = longest_edge_m(middle_of(edge));
-      edge.marked = edge.squared_length > allowed * allowed;
-      any |= edge.marked;
-    }
-    if (!any) return;
+  EdgeTable table(surface, longest_edge_m);
+  for (bool any = true; any;) {
+    table.Update();
     MarkLongestOfMarked(surface, table);
+    any = false;
     for (Edge& edge : table.edges()) {
-      if (!edge.marked) continue;
+      if (!edge.marked || edge.middle != kWhole) continue;
       edge.middle = static_cast<uint32_t>(surface.positions_W.size());
-      surface.positions_W.push_back(middle_of(edge));
+      surface.positions_W.push_back(table.MiddleOf(edge));
+      any = true;
     }
     std::vector<SolidSurface::Triangle> split;
     split.reserve(2 * surface.triangles.size());

@@ -12,6 +12,26 @@ namespace {
 constexpr double kSameCoordinate_m = 1e-6;
 constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
 
+void AppendHalves(double low, double high, const std::function<double(double)>& cell_size,
+                  std::vector<float>& breaks) {
+  const double middle = 0.5 * (low + high);
+  if (high - low > cell_size(middle)) {
+    AppendHalves(low, middle, cell_size, breaks);
+    AppendHalves(middle, high, cell_size, breaks);
+  } else {
+    breaks.push_back(static_cast<float>(high));
+  }
+}
+
+std::vector<double> Distinct(std::vector<double> coordinates_m) {
+  std::ranges::sort(coordinates_m);
+  const auto same = [](double a, double b) { return b - a < kSameCoordinate_m; };
+  coordinates_m.erase(std::unique(coordinates_m.begin(), coordinates_m.end(), same),
+                      coordinates_m.end());
+  FENESTRA_CHECK(coordinates_m.size() >= 2, "a lattice needs an extent");
+  return coordinates_m;
+}
+
 // Collects faces of lattice cells; corners of the lattice become positions when first used.
 class SurfaceBuilder {
  public:
@@ -59,12 +79,16 @@ class SurfaceBuilder {
 }  // namespace
 
 std::vector<float> DistinctBreaks(std::vector<double> coordinates_m) {
-  std::ranges::sort(coordinates_m);
-  const auto same = [](double a, double b) { return b - a < kSameCoordinate_m; };
-  coordinates_m.erase(std::unique(coordinates_m.begin(), coordinates_m.end(), same),
-                      coordinates_m.end());
-  FENESTRA_CHECK(coordinates_m.size() >= 2, "a lattice needs an extent");
-  return {coordinates_m.begin(), coordinates_m.end()};
+  const std::vector<double> distinct_m = Distinct(std::move(coordinates_m));
+  return {distinct_m.begin(), distinct_m.end()};
+}
+
+std::vector<float> GradedBreaks(std::vector<double> fixed_m,
+                                const std::function<double(double)>& cell_size) {
+  const std::vector<double> fixed = Distinct(std::move(fixed_m));
+  std::vector<float> breaks = {static_cast<float>(fixed.front())};
+  for (size_t i = 1; i < fixed.size(); ++i) AppendHalves(fixed[i - 1], fixed[i], cell_size, breaks);
+  return breaks;
 }
 
 Mesh MeshOf(const SolidSurface& surface, Solid solid, const std::string& name, uint32_t material) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,10 @@ Mesh MeshOf(const SolidSurface& surface, Solid solid, const std::string& name, u
 /// Sorted coordinates without near duplicates: two of them less than a micrometre apart are one.
 std::vector<float> DistinctBreaks(std::vector<double> coordinates_m);
 
+/// The same, with each gap halved until its cells are not longer than `cell_size` at their middle.
+std::vector<float> GradedBreaks(std::vector<double> fixed_m,
+                                const std::function<double(double)>& cell_size);
+
 /// Buildings from blocks: a rectilinear lattice whose cells are air or one of several solids.
 /// Where a solid meets air there is a surface, tessellated by the lattice itself. So neighbouring
 /// faces share the very same corners (no cracks, no T-junctions), and no two faces overlap. Outside
@@ -56,6 +61,11 @@ class SolidLattice {
 
   /// The faces between solids and air.
   SolidSurface Surface(Faces faces) const;
+
+  /// The faces between one solid and air.
+  Mesh Surface(Solid solid, Faces faces, const std::string& name, uint32_t material) const {
+    return MeshOf(Surface(faces), solid, name, material);
+  }
 
  private:
   using Cell = std::array<int, 3>;

@@ -1,6 +1,7 @@
 #include "scenes/wall_pattern.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
@@ -82,9 +83,10 @@ WallPattern Brick(const RandomStream& random) {
   constexpr double kModule_m = kPatternSide_m / kBricksOfCourse;
   constexpr double kBedJoint_m = kCourse_m - 0.071;
   constexpr double kHeadJoint_m = kModule_m - 0.240;
-  constexpr double kShade = 0.30;  // Standard deviation.
+  constexpr float kShade = 0.30f;  // Standard deviation.
   constexpr double kGrain = 0.12;
-  const RandomStream shades = random.Child("shades");
+  std::array<float, kCourses * kBricksOfCourse> shades{};
+  random.Child("shades").FillNormals(shades);
   // Edges of bricks are not straight: they wander by a millimetre or two.
   const cv::Mat1f wander = 0.0012 * Noise(128, random.Child("wander"));
   WallPattern brick{cv::Mat1f(kSide_px, kSide_px), cv::Mat1f(kSide_px, kSide_px)};
@@ -98,9 +100,8 @@ WallPattern Brick(const RandomStream& random) {
       const double off = wander(v, u);
       const float joint = std::max(Covered(FromGridLine(y_m, kCourse_m) + off, 0.5 * kBedJoint_m),
                                    Covered(FromGridLine(x_m, kModule_m) + off, 0.5 * kHeadJoint_m));
-      const double shade =
-          kShade * shades.Normal(static_cast<uint64_t>(course * kBricksOfCourse + column));
-      brick.lightness(v, u) = joint + (1.0f - joint) * static_cast<float>(shade);
+      const float shade = kShade * shades[static_cast<size_t>(course * kBricksOfCourse + column)];
+      brick.lightness(v, u) = joint + (1.0f - joint) * shade;
       brick.grey(v, u) = joint;
     }
   }

@@ -195,7 +195,7 @@ TEST(RayCaster, AClosedRoomHasNoHoleForAMillionRandomRays) {
   const std::vector<float> breaks = GradedBreaks({-2.0, -1.7, 1.7, 2.0}, cell);
   SolidLattice lattice({breaks, breaks, breaks});
   lattice.Fill({{-2, -2, -2}, {2, 2, 2}}, 1);
-  lattice.Fill({{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}}, SolidLattice::kAir);
+  lattice.Fill({{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}}, kAir);
   Scene scene;
   scene.materials = {Grey(0.5f)};
   scene.meshes = {lattice.Surface(1, SolidLattice::Faces::kAll, "room", 0)};

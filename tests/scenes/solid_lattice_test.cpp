@@ -60,5 +60,15 @@ TEST(DistinctBreaks, SortsAndMergesWhatRoundingToldApart) {
   EXPECT_EQ(DistinctBreaks({2.0, 0.0, 0.5, 0.5 + 1e-9}), (std::vector<float>{0.0f, 0.5f, 2.0f}));
 }
 
+TEST(GradedBreaks, KeepsFixedCoordinatesAndCellSize) {
+  const std::vector<float> breaks =
+      GradedBreaks({2.0, 0.0, 0.5, 0.5 + 1e-9}, [](double) { return 0.3; });
+  EXPECT_TRUE(std::ranges::is_sorted(breaks, std::less_equal<>{}));
+  for (const float fixed : {0.0f, 0.5f, 2.0f}) {
+    EXPECT_EQ(std::ranges::count(breaks, fixed), 1) << fixed;
+  }
+  for (size_t i = 1; i < breaks.size(); ++i) EXPECT_LE(breaks[i] - breaks[i - 1], 0.3f);
+}
+
 }  // namespace
 }  // namespace fenestra
