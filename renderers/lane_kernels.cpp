@@ -63,8 +63,11 @@ FENESTRA_WIDE LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint
   LaneLight light;
   for (int i = 0; i < kLanes; ++i) {
     const SideRadiance& side = sides[side_hit[i]];
-    light.sky[i] = side.sky + side.sky_u * packet.hit.u[i] + side.sky_v * packet.hit.v[i];
-    light.sun[i] = side.sun;
+    const float u = packet.hit.u[i];
+    const float v = packet.hit.v[i];
+    const float sun = side.sun + side.sun_u * u + side.sun_v * v;
+    light.ambient[i] = side.ambient + side.ambient_u * u + side.ambient_v * v;
+    light.sun[i] = sun > 0.0f ? sun : 0.0f;
   }
   return light;
 }

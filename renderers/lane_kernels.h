@@ -49,7 +49,7 @@ Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count);
 
 /// The two parts of the light that leaves each hit.
 struct LaneLight {
-  Lanes<float> sky;
+  Lanes<float> ambient;
   Lanes<float> sun;  ///< If the sun reaches the hit.
 };
 LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
