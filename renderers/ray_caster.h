@@ -25,9 +25,9 @@ struct RenderOptions {
   Band band = Band::kLuminance;
   /// Samples of every pixel: 1, 4, 16, 64 or 256.
   int samples_per_pixel = 4;
-  /// Samples of a pixel that an edge crosses (of an object, a material or a shadow); not less than
-  /// samples_per_pixel, and ended at 64 where those see only one thing. 256 place a straight edge
-  /// in each row to 0.0015 px RMS if it runs along the pixels, to 0.006 px across it at any angle.
+  /// If this is more than samples_per_pixel, edges (of an object or a shadow) are searched for in
+  /// the pixels that they cross, which places them to 0.0015 px RMS in each row; and this many
+  /// samples go to pixels with more in them than one edge: 256 place edges there to about 0.006 px.
   int edge_samples_per_pixel = 256;
 };
 

@@ -47,7 +47,6 @@ class TracedScene {
   float HitReflectance(const RayPacket& packet, int lane) const;
 
  private:
-
   TriangleSoup opaque_;
   TriangleSoup panes_;
   SurfacePatterns patterns_;
