@@ -31,17 +31,37 @@ FENESTRA_WIDE Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x,
   return d;
 }
 
-FENESTRA_WIDE ImagePoints SamplePatch(const PixelPatch& patch, const uint32_t* net_x,
-                                      const uint32_t* net_y, uint32_t scramble_x,
-                                      uint32_t scramble_y) {
-  ImagePoints points;
+FENESTRA_WIDE PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x,
+                                          const Lanes<uint32_t>& net_y,
+                                          const Lanes<uint32_t>& pixel,
+                                          const ImageScramble& scramble) {
+  PixelPoints points;
   for (int i = 0; i < kLanes; ++i) {
-    const float s = ToUnit(OwenScrambled(net_x[i], scramble_x));
-    const float t = ToUnit(OwenScrambled(net_y[i], scramble_y));
-    points.x[i] = patch.x0 + s * patch.xs + t * (patch.xt + s * patch.xst);
-    points.y[i] = patch.y0 + s * patch.ys + t * (patch.yt + s * patch.yst);
+    const NetPoint seed = scramble.OfPixel(pixel[i]);
+    points.s[i] = ToUnit(OwenScrambled(net_x[i], seed.x));
+    points.t[i] = ToUnit(OwenScrambled(net_y[i], seed.y));
   }
   return points;
+}
+
+FENESTRA_WIDE ImagePoints InPixels(const float* corner_data, const Lanes<uint32_t>& corner,
+                                   uint32_t stride, const PixelPoints& points) {
+  ImagePoints out;
+  for (int i = 0; i < kLanes; ++i) {
+    const float s = points.s[i];
+    const float t = points.t[i];
+    const uint32_t c00 = 2 * corner[i];
+    const uint32_t c10 = c00 + 2;
+    const uint32_t c01 = c00 + 2 * stride;
+    const uint32_t c11 = c01 + 2;
+    const float x_top = corner_data[c00] + s * (corner_data[c10] - corner_data[c00]);
+    const float x_low = corner_data[c01] + s * (corner_data[c11] - corner_data[c01]);
+    const float y_top = corner_data[c00 + 1] + s * (corner_data[c10 + 1] - corner_data[c00 + 1]);
+    const float y_low = corner_data[c01 + 1] + s * (corner_data[c11 + 1] - corner_data[c01 + 1]);
+    out.x[i] = x_top + t * (x_low - x_top);
+    out.y[i] = y_top + t * (y_low - y_top);
+  }
+  return out;
 }
 
 FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count) {
@@ -63,8 +83,11 @@ FENESTRA_WIDE LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint
   LaneLight light;
   for (int i = 0; i < kLanes; ++i) {
     const SideRadiance& side = sides[side_hit[i]];
-    light.sky[i] = side.sky + side.sky_u * packet.hit.u[i] + side.sky_v * packet.hit.v[i];
-    light.sun[i] = side.sun;
+    const float u = packet.hit.u[i];
+    const float v = packet.hit.v[i];
+    const float sun = side.sun + side.sun_u * u + side.sun_v * v;
+    light.ambient[i] = side.ambient + side.ambient_u * u + side.ambient_v * v;
+    light.sun[i] = sun > 0.0f ? sun : 0.0f;
   }
   return light;
 }

@@ -3,18 +3,12 @@
 #include <array>
 
 #include "renderers/lit_surfaces.h"
+#include "renderers/net_samples.h"
 #include "renderers/packet.h"
 
 namespace fenestra {
 
 /// The loops over lanes that every ray goes through, compiled for the widest vectors at hand.
-
-/// Bilinear interpolation of a pixel's corner rays, in normalised image coordinates and per lane:
-/// (x, y) = c00 + s (c10 − c00) + t (c01 − c00) + s t (c00 − c10 − c01 + c11).
-struct PixelPatch {
-  float x0, xs, xt, xst;
-  float y0, ys, yt, yst;
-};
 
 /// Columns of R_WC in single precision.
 struct CameraAxes {
@@ -35,21 +29,33 @@ FloatPose ToFloat(const Pose& X_WC);
 /// axis.
 Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x, const Lanes<float>& y);
 
-/// The image coordinates of sixteen samples (s, t) in [0, 1)² of one pixel: scrambled points from
-/// kNetTable.
+/// Places in an image, as normalised image coordinates.
 struct ImagePoints {
   Lanes<float> x;
   Lanes<float> y;
 };
-ImagePoints SamplePatch(const PixelPatch& patch, const uint32_t* net_x, const uint32_t* net_y,
-                        uint32_t scramble_x, uint32_t scramble_y);
+
+/// Places (s, t) in [0, 1]² within pixels, from their top left corners.
+struct PixelPoints {
+  Lanes<float> s;
+  Lanes<float> t;
+};
+
+/// Net points (see NetTable) scrambled for each lane's pixel.
+PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x, const Lanes<uint32_t>& net_y,
+                            const Lanes<uint32_t>& pixel, const ImageScramble& scramble);
+
+/// Interpolates between the corner rays of each lane's pixel; `corner` is the index of its top left
+/// corner in RayGrid::corner_data(), `stride` the corners in a row.
+ImagePoints InPixels(const float* corner_data, const Lanes<uint32_t>& corner, uint32_t stride,
+                     const PixelPoints& points);
 
 /// The side that each lane hit, or the sky or the ground: an index into SideRadiance tables.
 Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count);
 
 /// The two parts of the light that leaves each hit.
 struct LaneLight {
-  Lanes<float> sky;
+  Lanes<float> ambient;
   Lanes<float> sun;  ///< If the sun reaches the hit.
 };
 LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,

@@ -83,8 +83,8 @@ class FacadeBuilder {
   }
 
   void AddGlass() {
-    Mesh pane{.name = "pane", .positions_W = {}, .triangles = {}};
-    Mesh others{.name = "other panes", .positions_W = {}, .triangles = {}};
+    Mesh pane{.name = "pane"};
+    Mesh others{.name = "other panes"};
     for (const WindowPlan& window : plan_.windows) {
       AddPanes(options_.window, window, window.is_target ? pane : others);
     }
@@ -105,8 +105,8 @@ class FacadeBuilder {
 
   void AddBlinds() {
     if (options_.blind.coverage == 0.0) return;
-    Mesh blind{.name = "blind", .positions_W = {}, .triangles = {}, .closed = true};
-    Mesh others{.name = "other blinds", .positions_W = {}, .triangles = {}, .closed = true};
+    Mesh blind{.name = "blind", .closed = true};
+    Mesh others{.name = "other blinds", .closed = true};
     for (const WindowPlan& window : plan_.windows) {
       const double coverage =
           window.is_target ? options_.blind.coverage : window.random.Child("blind").Uniform(0);

@@ -20,7 +20,7 @@ constexpr double kRailSlice_m = 0.2;
 constexpr double kLowerRail_m = 0.04;  // Above the opening's lower edge.
 
 Mesh EmptyBars(const char* name, uint32_t material) {
-  return {.name = name, .positions_W = {}, .triangles = {}, .material = material, .closed = true};
+  return {.name = name, .material = material, .closed = true};
 }
 
 int SliceCount(double length_m, double slice_m) {

@@ -145,7 +145,7 @@ void AddLeaf(const Leaf& leaf, float shade, Mesh& mesh) {
 Mesh MakePlant(const FacadeOptions& options, const WindowPlan& window, const RandomStream& random,
                uint32_t material) {
   const PlantOptions& plant = options.plant;
-  Mesh mesh{.name = "plant", .positions_W = {}, .triangles = {}, .material = material};
+  Mesh mesh{.name = "plant", .material = material};
   FrontMap front(window, plant.leaf_length_m / kPixelsPerLeaf);
   for (uint64_t cluster = 0; front.Coverage() < plant.coverage; ++cluster) {
     const RandomStream here = random.Child("cluster", cluster);

@@ -41,9 +41,9 @@ struct Material {
 /// Triangles of one object and one material. A surface is two-sided unless it is closed.
 struct Mesh {
   std::string name;
-  std::vector<glm::vec3> positions_W;  ///< [m]
-  std::vector<glm::uvec3> triangles;   ///< Indices into positions_W.
-  uint32_t material = 0;               ///< Index into Scene::materials.
+  std::vector<glm::vec3> positions_W{};  ///< [m]
+  std::vector<glm::uvec3> triangles{};   ///< Indices into positions_W.
+  uint32_t material = 0;                 ///< Index into Scene::materials.
   /// Bounds a solid body on whose inside no light falls; triangles wind counter-clockwise as seen
   /// from outside.
   bool closed = false;

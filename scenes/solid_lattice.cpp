@@ -92,7 +92,7 @@ std::vector<float> GradedBreaks(std::vector<double> fixed_m,
 }
 
 Mesh MeshOf(const SolidSurface& surface, Solid solid, const std::string& name, uint32_t material) {
-  Mesh mesh{.name = name, .positions_W = {}, .triangles = {}, .material = material, .closed = true};
+  Mesh mesh{.name = name, .material = material, .closed = true};
   std::array<uint32_t, 6> unused{};
   unused.fill(kNone);
   std::vector<std::array<uint32_t, 6>> vertex_of(surface.positions_W.size(), unused);
