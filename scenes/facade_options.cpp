@@ -153,7 +153,8 @@ void CheckDrainpipe(const FacadeOptions& o, SizeChecks& checks) {
   const double reach_m =
       0.5 * o.window.width_m + (o.shutters.present ? ShutterReach_m(o.window.width_m) : 0.0);
   const double pitch_m = o.window.width_m + o.grid.gap_x_m;
-  for (int column = -o.grid.windows_left; column <= o.grid.windows_right; ++column) {
+  const int first = -std::max(o.grid.windows_left, 0);
+  for (int column = first; column <= std::max(o.grid.windows_right, 0); ++column) {
     checks.Demand(std::abs(pipe.x_m - column * pitch_m) >= reach_m + pipe.radius_m,
                   fmt::format("a drainpipe at x = {} m would stand before the windows or the "
                               "shutters of the column at x = {:g} m",

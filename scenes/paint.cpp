@@ -14,12 +14,12 @@ struct Hue {
 };
 
 // Linear values of typical sRGB colours: brick (165, 100, 80), ochre plaster (205, 170, 110), brown
-// wood paint (90, 60, 40), foliage (60, 100, 50), blue paint (50, 80, 130). Chosen by eye.
+// wood paint (90, 60, 40), foliage (66, 97, 56), blue paint (50, 80, 130). Chosen by eye.
 const std::vector<Hue>& HueTable() {
   static const std::vector<Hue> hues = {
       {"neutral", {1.0, 1.0, 1.0}},       {"brick_red", {0.376, 0.127, 0.080}},
       {"ochre", {0.610, 0.402, 0.156}},   {"brown", {0.102, 0.045, 0.021}},
-      {"green", {0.0452, 0.127, 0.0319}}, {"blue", {0.032, 0.080, 0.223}},
+      {"green", {0.055, 0.120, 0.040}}, {"blue", {0.032, 0.080, 0.223}},
   };
   return hues;
 }

@@ -106,7 +106,7 @@ WallPattern Brick(const RandomStream& random) {
     }
   }
   brick.lightness += kGrain * Noise(kSide_px, random.Child("grain"));
-  brick.lightness += kGrain * Noise(64, random.Child("grain"));
+  brick.lightness += 0.5 * kGrain * Noise(128, random.Child("grain"));
   return brick;
 }
 
@@ -150,9 +150,9 @@ WallPattern Cladding(const RandomStream& random) {
   constexpr double kJoint_m = 0.006;
   constexpr float kJointDepth = 4.0f;
   const RandomStream shades = random.Child("shades");
-  WallPattern cladding{0.5 * Noise(512, 8, random.Child("grain")), {}};
+  WallPattern cladding{0.3 * Noise(512, 8, random.Child("grain")), {}};
   cv::Mat1f& lightness = cladding.lightness;
-  lightness += 0.4 * Noise(128, 4, random.Child("wide_grain"));
+  lightness += 0.3 * Noise(128, 4, random.Child("wide_grain"));
   lightness += 0.2 * Noise(kSide_px, random);
   std::vector<float> across;
   for (int u = 0; u < kSide_px; ++u) {
