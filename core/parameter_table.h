@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -104,6 +106,27 @@ class ParameterTable {
         });
   }
 
+  /// A choice whose field is an enumeration: its enumerators, from 0, are called `choices`.
+  template <typename Field>
+  requires std::is_enum_v<std::remove_reference_t<std::invoke_result_t<Field, Settings&>>>
+      ParameterTable& Choice(const std::string& name, Field field, std::vector<std::string> choices,
+                             const std::string& description) {
+    using Enumeration = std::remove_reference_t<std::invoke_result_t<Field, Settings&>>;
+    return Add(
+        {.name = name,
+         .description = description,
+         .type = ParameterInfo::Type::kChoice,
+         .choices = choices},
+        [field, choices](const Settings& s) {
+          return ParameterValue(choices.at(static_cast<size_t>(field(const_cast<Settings&>(s)))));
+        },
+        [field, choices](Settings& s, const ParameterValue& value) {
+          const auto found =
+              std::find(choices.begin(), choices.end(), std::get<std::string>(value));
+          field(s) = static_cast<Enumeration>(found - choices.begin());
+        });
+  }
+
   /// In the order in which they were added.
   const std::vector<ParameterInfo>& infos() const { return infos_; }
 
@@ -138,8 +161,7 @@ class ParameterTable {
 
   ParameterTable& Add(ParameterInfo info, Getter get, Setter set) {
     FENESTRA_CHECK(Find(info.name) == nullptr, "parameter named twice: " + info.name);
-    const Settings defaults = Settings();
-    info.default_value = get(defaults);
+    info.default_value = get(Settings{});
     infos_.push_back(std::move(info));
     getters_.push_back(std::move(get));
     setters_.push_back(std::move(set));

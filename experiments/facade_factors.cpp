@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "scenes/facade_plan.h"
-#include "scenes/wall_pattern.h"
 #include "scenes/wall_texture.h"
 
 namespace fenestra {
@@ -22,8 +21,8 @@ const Table::Range kUnit{0.0, 1.0};
 void AddWall(Table& t) {
   t.Number("wall_thickness_m", FIELD(facade.wall.thickness_m), {0.01, 2.0},
            "Of the wall, which is the depth of the reveal.")
-      .Choice("wall_hue", FIELD(facade.wall.paint.hue), Hues(), "Colour of the wall.")
-      .Choice("wall_texture", FIELD(facade.wall.texture), WallPatternKinds(),
+      .Choice("wall_hue", FIELD(facade.wall.paint.hue), HueNames(), "Colour of the wall.")
+      .Choice("wall_finish", FIELD(facade.wall.finish), WallFinishNames(),
               "What the wall is made of; without effect at a contrast of 0.")
       .Number("texture_contrast", FIELD(facade.wall.texture_contrast), {0.0, kMostTextureContrast},
               "Standard deviation over mean of the wall's reflectance; 0: no texture.")
@@ -38,7 +37,7 @@ void AddWindow(Table& t) {
            "Of the frame, along the wall's normal.")
       .Number("frame_setback_m", FIELD(facade.window.setback_m), {0.0, 1.0},
               "Front of the frame behind the wall's outer face.")
-      .Choice("frame_hue", FIELD(facade.window.frame.hue), Hues(), "Colour of the frame.")
+      .Choice("frame_hue", FIELD(facade.window.frame.hue), HueNames(), "Colour of the frame.")
       .Integer("vertical_mullions", FIELD(facade.window.vertical_mullions), {0, 10},
                "Upright bars within the frame, of its paint.")
       .Integer("horizontal_mullions", FIELD(facade.window.horizontal_mullions), {0, 10},
@@ -69,7 +68,7 @@ void AddOtherWindows(Table& t) {
               "Of the other windows' frames, in visible light.")
       .Number("other_frame_reflectance_830nm", FIELD(facade.grid.other_frame.reflectance_830nm),
               kUnit, "Of the other windows' frames, in the projector's infra-red.")
-      .Choice("other_frame_hue", FIELD(facade.grid.other_frame.hue), Hues(),
+      .Choice("other_frame_hue", FIELD(facade.grid.other_frame.hue), HueNames(),
               "Of the other windows' frames.");
 }
 
@@ -80,7 +79,7 @@ void AddRooms(Table& t) {
               "Of the rooms' surfaces, in visible light.")
       .Number("room_reflectance_830nm", FIELD(facade.room.paint.reflectance_830nm), kUnit,
               "Of the rooms' surfaces, in the projector's infra-red.")
-      .Choice("room_hue", FIELD(facade.room.paint.hue), Hues(), "Of the rooms' surfaces.")
+      .Choice("room_hue", FIELD(facade.room.paint.hue), HueNames(), "Of the rooms' surfaces.")
       .Number("room_lamp_lm", FIELD(facade.room.lamp_lm), {0.0, 1e5},
               "Of the ceiling lamp behind the target; 0: none. A living room has 1000 to 3000.")
       .Number("other_room_lamps_lm", FIELD(facade.room.other_lamps_lm), {0.0, 1e5},
@@ -101,7 +100,7 @@ void AddStonework(Table& t) {
               "Of the sills, in visible light.")
       .Number("sill_reflectance_830nm", FIELD(facade.sill.paint.reflectance_830nm), kUnit,
               "Of the sills, in the projector's infra-red.")
-      .Choice("sill_hue", FIELD(facade.sill.paint.hue), Hues(), "Of the sills.")
+      .Choice("sill_hue", FIELD(facade.sill.paint.hue), HueNames(), "Of the sills.")
       .Switch("lintel", FIELD(facade.lintel.present), "A band above each window.")
       .Number("lintel_height_m", FIELD(facade.lintel.height_m), {0.01, 1.0}, "Of the band.")
       .Number("lintel_overhang_m", FIELD(facade.lintel.overhang_m), {0.0, 0.5},
@@ -112,7 +111,7 @@ void AddStonework(Table& t) {
               "Of the lintels, in visible light.")
       .Number("lintel_reflectance_830nm", FIELD(facade.lintel.paint.reflectance_830nm), kUnit,
               "Of the lintels, in the projector's infra-red.")
-      .Choice("lintel_hue", FIELD(facade.lintel.paint.hue), Hues(), "Of the lintels.")
+      .Choice("lintel_hue", FIELD(facade.lintel.paint.hue), HueNames(), "Of the lintels.")
       .Switch("shutters", FIELD(facade.shutters.present), "Open shutters beside each window.")
       .Switch("shutters_louvred", FIELD(facade.shutters.louvred),
               "Slats in a rim instead of boards.")
@@ -120,7 +119,7 @@ void AddStonework(Table& t) {
               "Of the shutters, in visible light.")
       .Number("shutter_reflectance_830nm", FIELD(facade.shutters.paint.reflectance_830nm), kUnit,
               "Of the shutters, in the projector's infra-red.")
-      .Choice("shutter_hue", FIELD(facade.shutters.paint.hue), Hues(), "Of the shutters.");
+      .Choice("shutter_hue", FIELD(facade.shutters.paint.hue), HueNames(), "Of the shutters.");
 }
 
 void AddPipework(Table& t) {
@@ -134,7 +133,7 @@ void AddPipework(Table& t) {
               "Of the pipe, in visible light.")
       .Number("drainpipe_reflectance_830nm", FIELD(facade.drainpipe.paint.reflectance_830nm), kUnit,
               "Of the pipe, in the projector's infra-red.")
-      .Choice("drainpipe_hue", FIELD(facade.drainpipe.paint.hue), Hues(), "Of the pipe.")
+      .Choice("drainpipe_hue", FIELD(facade.drainpipe.paint.hue), HueNames(), "Of the pipe.")
       .Integer("cables", FIELD(facade.cables.count), {0, 10},
                "How many hang across the facade; they may cross the window.")
       .Number("cable_height_m", FIELD(facade.cables.height_m), {-20.0, 20.0},
@@ -147,7 +146,7 @@ void AddPipework(Table& t) {
               "Of the cables, in visible light.")
       .Number("cable_reflectance_830nm", FIELD(facade.cables.paint.reflectance_830nm), kUnit,
               "Of the cables, in the projector's infra-red.")
-      .Choice("cable_hue", FIELD(facade.cables.paint.hue), Hues(), "Of the cables.")
+      .Choice("cable_hue", FIELD(facade.cables.paint.hue), HueNames(), "Of the cables.")
       .Switch("railing", FIELD(facade.railing.present), "Bars before the target.")
       .Number("railing_height_m", FIELD(facade.railing.height_m), {0.05, 5.0},
               "Of the hand rail above the window's lower edge.")
@@ -160,7 +159,7 @@ void AddPipework(Table& t) {
               "Of the railing, in visible light.")
       .Number("railing_reflectance_830nm", FIELD(facade.railing.paint.reflectance_830nm), kUnit,
               "Of the railing, in the projector's infra-red.")
-      .Choice("railing_hue", FIELD(facade.railing.paint.hue), Hues(), "Of the railing.");
+      .Choice("railing_hue", FIELD(facade.railing.paint.hue), HueNames(), "Of the railing.");
 }
 
 void AddCovers(Table& t) {
@@ -177,7 +176,7 @@ void AddCovers(Table& t) {
               "Of the blinds, in visible light.")
       .Number("blind_reflectance_830nm", FIELD(facade.blind.paint.reflectance_830nm), kUnit,
               "Of the blinds, in the projector's infra-red.")
-      .Choice("blind_hue", FIELD(facade.blind.paint.hue), Hues(), "Of the blinds.")
+      .Choice("blind_hue", FIELD(facade.blind.paint.hue), HueNames(), "Of the blinds.")
       .Number("plant_coverage", FIELD(facade.plant.coverage), {0.0, kMostPlantCoverage},
               "Share of the target's frame behind leaves, seen from its front.")
       .Number("plant_leaf_length_m", FIELD(facade.plant.leaf_length_m), {0.02, 0.5},
@@ -186,7 +185,7 @@ void AddCovers(Table& t) {
               "Of the lightest leaves, in visible light.")
       .Number("plant_reflectance_830nm", FIELD(facade.plant.paint.reflectance_830nm), kUnit,
               "Of the lightest leaves, in the projector's infra-red.")
-      .Choice("plant_hue", FIELD(facade.plant.paint.hue), Hues(), "Of the lightest leaves.");
+      .Choice("plant_hue", FIELD(facade.plant.paint.hue), HueNames(), "Of the lightest leaves.");
 }
 
 #undef FIELD

@@ -6,7 +6,6 @@
 #include "scenes/facade_plan.h"
 #include "scenes/facade_shutters.h"
 #include "scenes/size_checks.h"
-#include "scenes/wall_pattern.h"
 #include "scenes/wall_texture.h"
 
 namespace fenestra {
@@ -19,7 +18,6 @@ void CheckWall(const FacadeOptions& o, SizeChecks& checks) {
   checks.Positive("wall_thickness_m", wall.thickness_m);
   checks.Painted("wall", wall.paint);
   checks.Positive("texture_scale", wall.texture_scale);
-  checks.OneOf("wall_texture", wall.texture, WallPatternKinds());
   checks.Within("texture_contrast", wall.texture_contrast, 0.0, kMostTextureContrast);
   if (checks.faultless()) {
     const std::string objection = TextureObjection(wall);
@@ -201,6 +199,11 @@ void CheckCovers(const FacadeOptions& o, SizeChecks& checks) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& WallFinishNames() {
+  static const std::vector<std::string> names = {"plaster", "brick", "concrete", "cladding"};
+  return names;
+}
 
 void Validate(const FacadeOptions& options) {
   SizeChecks checks("facade");

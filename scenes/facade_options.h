@@ -10,12 +10,18 @@ namespace fenestra {
 
 // Where no source is given, sizes and reflectances are ordinary ones, chosen by us.
 
+/// What a wall's texture shows; see MakeWallPattern.
+enum class WallFinish { kPlaster, kBrick, kConcrete, kCladding };
+
+/// Their names, in order: plaster, brick, ...
+const std::vector<std::string>& WallFinishNames();
+
 struct WallOptions {
   double width_m = 12.0;  ///< The wall is centred on the target.
   double height_m = 8.0;
   double thickness_m = 0.30;  ///< The reveal runs from the outer face to here.
   Paint paint{.reflectance = 0.80, .reflectance_830nm = 0.80};  ///< Mean over the texture.
-  std::string texture = "plaster";                              ///< One of WallPatternKinds().
+  WallFinish finish = WallFinish::kPlaster;
   double texture_contrast = 0.0;  ///< Standard deviation over mean; 0: no texture at all.
   double texture_scale = 1.0;     ///< Multiplies all lengths of the texture.
 };
@@ -78,7 +84,7 @@ struct LintelOptions {
 struct ShutterOptions {
   bool present = false;
   bool louvred = true;
-  Paint paint{.reflectance = 0.15, .reflectance_830nm = 0.40, .hue = "green"};
+  Paint paint{.reflectance = 0.15, .reflectance_830nm = 0.40, .hue = Hue::kGreen};
 };
 
 /// A vertical pipe over the wall's whole height.
@@ -130,7 +136,7 @@ struct PlantOptions {
   double leaf_length_m = 0.07;
   /// Leaves reflect about 0.1 of green light and half of the near infra-red: E. B. Knipling,
   /// Remote Sensing of Environment 1 (1970), 155-159.
-  Paint paint{.reflectance = 0.10, .reflectance_830nm = 0.50, .hue = "green"};
+  Paint paint{.reflectance = 0.10, .reflectance_830nm = 0.50, .hue = Hue::kGreen};
 };
 
 /// A facade: a wall, a grid of windows of which one is the target, and what hangs on it. By default

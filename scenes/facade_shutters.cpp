@@ -71,8 +71,7 @@ std::array<Box, 2> ShutterLeaves(const FacadeOptions& options, const WindowPlan&
 }
 
 Mesh MakeShutters(const FacadeOptions& options, const FacadePlan& plan, uint32_t material) {
-  Mesh mesh{
-      .name = "shutters", .material = material, .closed = true};
+  Mesh mesh{.name = "shutters", .material = material, .closed = true};
   for (const WindowPlan& window : plan.windows) {
     for (const Box& leaf : ShutterLeaves(options, window)) {
       const Vector3d size = leaf.high - leaf.low;

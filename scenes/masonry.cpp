@@ -167,9 +167,8 @@ SolidSurface BuildMasonry(const FacadeOptions& options, const FacadePlan& plan) 
   SolidSurface surface =
       Build(PartsOf(options, plan)).Surface(SolidLattice::Faces::kFrontOfLattice);
   const std::vector<Detail> details = DetailsOf(options, plan);
-  BisectLongEdges(surface, [&details](const glm::vec3& middle) {
-    return kDiagonal * CellAt(details, middle);
-  });
+  BisectLongEdges(
+      surface, [&details](const glm::vec3& middle) { return kDiagonal * CellAt(details, middle); });
   return surface;
 }
 

@@ -29,10 +29,6 @@ class SizeChecks {
     Demand(value >= min && value <= max,
            fmt::format("{} must be in [{}, {}], not {}", name, min, max, value));
   }
-  void OneOf(const char* name, const std::string& value, const std::vector<std::string>& allowed) {
-    Demand(std::ranges::find(allowed, value) != allowed.end(),
-           fmt::format("{} must be one of {}, not '{}'", name, fmt::join(allowed, ", "), value));
-  }
   void Reflectance(const char* name, double value) {
     Demand(value >= 0.0 && value <= 1.0, fmt::format("{} must be in [0, 1], not {}", name, value));
   }
@@ -40,14 +36,10 @@ class SizeChecks {
   void Painted(const std::string& name, const Paint& paint) {
     Reflectance((name + "_reflectance").c_str(), paint.reflectance);
     Reflectance((name + "_reflectance_830nm").c_str(), paint.reflectance_830nm);
-    if (std::ranges::find(Hues(), paint.hue) == Hues().end()) {
-      OneOf((name + "_hue").c_str(), paint.hue, Hues());
-      return;
-    }
     const double most = MostReflectance(paint.hue);
     Demand(!(paint.reflectance > most) || paint.reflectance > 1.0,
-           fmt::format("{}_reflectance can be up to {:.3f} in {}, not {}", name, most, paint.hue,
-                       paint.reflectance));
+           fmt::format("{}_reflectance can be up to {:.3f} in {}, not {}", name, most,
+                       HueNames().at(static_cast<size_t>(paint.hue)), paint.reflectance));
   }
   void Demand(bool holds, std::string message) {
     if (!holds) faults_.push_back({source_, 0, 0, std::move(message)});

@@ -6,8 +6,6 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "core/check.h"
-
 namespace fenestra {
 namespace {
 
@@ -169,16 +167,17 @@ WallPattern Cladding(const RandomStream& random) {
 
 }  // namespace
 
-const std::vector<std::string>& WallPatternKinds() {
-  static const std::vector<std::string> kinds = {"plaster", "brick", "concrete", "cladding"};
-  return kinds;
-}
-
-WallPattern MakeWallPattern(const std::string& kind, const RandomStream& random) {
-  if (kind == "plaster") return Plaster(random);
-  if (kind == "brick") return Brick(random);
-  if (kind == "concrete") return Concrete(random);
-  FENESTRA_CHECK(kind == "cladding", "unknown wall pattern " + kind);
+WallPattern MakeWallPattern(WallFinish finish, const RandomStream& random) {
+  switch (finish) {
+    case WallFinish::kPlaster:
+      return Plaster(random);
+    case WallFinish::kBrick:
+      return Brick(random);
+    case WallFinish::kConcrete:
+      return Concrete(random);
+    case WallFinish::kCladding:
+      break;
+  }
   return Cladding(random);
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <string>
-#include <vector>
 
 #include "core/random_stream.h"
+#include "scenes/facade_options.h"
 
 namespace fenestra {
 
@@ -17,9 +16,6 @@ struct WallPattern {
   cv::Mat1f grey;
 };
 
-/// plaster, brick, concrete, cladding.
-const std::vector<std::string>& WallPatternKinds();
-
 inline constexpr int kPatternSide_px = 1024;
 inline constexpr double kPatternSide_m = 2.0;
 
@@ -28,7 +24,6 @@ inline constexpr double kPatternSide_m = 2.0;
 ///             (DIN 4172: 12 courses to the metre), head joints 10 mm; every brick has its shade
 ///   concrete  panels of 1 m x 2 m with formwork joints and tie holes, blotches and pores
 ///   cladding  upright boards of 125 mm with open joints of 6 mm and grain along them
-/// `kind` must be one of WallPatternKinds().
-WallPattern MakeWallPattern(const std::string& kind, const RandomStream& random);
+WallPattern MakeWallPattern(WallFinish finish, const RandomStream& random);
 
 }  // namespace fenestra

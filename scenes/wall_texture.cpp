@@ -98,10 +98,10 @@ glm::dvec3 PeakOf(const Coloured& coloured) {
   return peak;
 }
 
-Encoded Encode(const Coloured& coloured, const std::string& name) {
+Encoded Encode(const Coloured& coloured) {
   const int rows = coloured.lightness.rows;
   const int columns = coloured.lightness.cols;
-  Encoded encoded{.texture = {.name = name, .width_px = columns, .height_px = rows, .texels = {}},
+  Encoded encoded{.texture = {.name = "wall", .width_px = columns, .height_px = rows, .texels = {}},
                   .peak = PeakOf(coloured)};
   encoded.texture.texels.reserve(static_cast<size_t>(rows) * static_cast<size_t>(columns));
   const glm::vec3 per_peak = 1.0f / glm::vec3(encoded.peak);
@@ -141,7 +141,8 @@ std::string TextureObjection(const WallOptions& wall) {
     return fmt::format(
         "a wall of reflectance {} ({}) with a texture_contrast of {} would have to reflect {:.2f} "
         "of the light in its lightest places: lower one of them",
-        wall.paint.reflectance, wall.paint.hue, wall.texture_contrast, visible);
+        wall.paint.reflectance, HueNames().at(static_cast<size_t>(wall.paint.hue)),
+        wall.texture_contrast, visible);
   }
   // In the infra-red the texels' luminance counts. Its mean is the least where grey joints take the
   // peak of a colour that the hue has little of.
@@ -149,7 +150,7 @@ std::string TextureObjection(const WallOptions& wall) {
   for (int c = 0; c < 3; ++c) {
     least_mean += kLuminance[c] * std::min(hue[c], 1.0) / (std::max(hue[c], 1.0) * lightest);
   }
-  if (wall.texture != "brick") least_mean = 1.0 / lightest;
+  if (wall.finish != WallFinish::kBrick) least_mean = 1.0 / lightest;
   if (wall.paint.reflectance_830nm > least_mean) {
     return fmt::format(
         "a wall_reflectance_830nm of {} with a texture_contrast of {} would have to reflect more "
@@ -161,14 +162,14 @@ std::string TextureObjection(const WallOptions& wall) {
 
 TexturedWall MakeTexturedWall(const WallOptions& wall, const RandomStream& random) {
   FENESTRA_CHECK(wall.texture_contrast > 0.0, "a texture has contrast");
-  const WallPattern pattern = MakeWallPattern(wall.texture, random);
+  const WallPattern pattern = MakeWallPattern(wall.finish, random);
   const cv::Mat1f standard = Standardised(pattern.lightness);
   // Rounding to 8 bits adds contrast; the second round makes up for it.
   double amplitude = wall.texture_contrast;
   Encoded encoded;
   for (int round = 0; round < 2; ++round) {
     const Coloured coloured{1.0 + amplitude * standard, pattern.grey, HueRgb(wall.paint.hue)};
-    encoded = Encode(coloured, wall.texture);
+    encoded = Encode(coloured);
     amplitude *= wall.texture_contrast / encoded.contrast;
   }
   const double luminance = glm::dot(kLuminance, encoded.peak * encoded.mean);

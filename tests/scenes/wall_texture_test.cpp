@@ -50,25 +50,31 @@ Statistics Measure(const TexturedWall& wall) {
   return {sum / n, std::sqrt(squares / n - sum / n * sum / n) / (sum / n), sum_830nm / n};
 }
 
-WallOptions Wall(const std::string& texture, double contrast, const std::string& hue = "neutral") {
+WallOptions Wall(WallFinish finish, double contrast, Hue hue = Hue::kNeutral) {
   WallOptions wall;
-  wall.texture = texture;
+  wall.finish = finish;
   wall.texture_contrast = contrast;
   wall.paint = {.reflectance = 0.25, .reflectance_830nm = 0.3, .hue = hue};
   return wall;
 }
 
-class WallTextures : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(OfAllKinds, WallTextures, testing::ValuesIn(WallPatternKinds()));
+class WallTextures : public testing::TestWithParam<WallFinish> {};
+INSTANTIATE_TEST_SUITE_P(OfAllKinds, WallTextures,
+                         testing::Values(WallFinish::kPlaster, WallFinish::kBrick,
+                                         WallFinish::kConcrete, WallFinish::kCladding),
+                         [](const auto& finish) {
+                           return WallFinishNames()[static_cast<size_t>(finish.param)];
+                         });
 
 TEST_P(WallTextures, HaveTheGivenMeansAndContrast) {
   for (const auto& [contrast, hue] :
-       {std::pair{0.03, "neutral"}, std::pair{0.25, "neutral"}, std::pair{0.2, "brick_red"}}) {
+       {std::pair{0.03, Hue::kNeutral}, std::pair{0.25, Hue::kNeutral},
+        std::pair{0.2, Hue::kBrickRed}}) {
     const Statistics found =
         Measure(MakeTexturedWall(Wall(GetParam(), contrast, hue), RandomStream(3)));
-    EXPECT_NEAR(found.mean, 0.25, 0.01 * 0.25) << contrast << hue;
-    EXPECT_NEAR(found.mean_830nm, 0.3, 0.01 * 0.3) << contrast << hue;
-    EXPECT_NEAR(found.contrast, contrast, 0.05 * contrast) << contrast << hue;
+    EXPECT_NEAR(found.mean, 0.25, 0.01 * 0.25) << contrast;
+    EXPECT_NEAR(found.mean_830nm, 0.3, 0.01 * 0.3) << contrast;
+    EXPECT_NEAR(found.contrast, contrast, 0.05 * contrast) << contrast;
   }
 }
 
@@ -96,7 +102,7 @@ TEST_P(WallTextures, GoOnBeyondTheirEdges) {
     EXPECT_LE(step(across_columns, t.width_px - 1), 1.05 * largest) << across_columns;
   }
   // The twin: half the texture does not go on. Brick and cladding repeat more often than that.
-  if (GetParam() != "plaster") return;
+  if (GetParam() != WallFinish::kPlaster) return;
   double inner = 0.0;
   for (int i = 0; i + 1 < t.width_px; ++i) inner = std::max(inner, step(true, i));
   double cut = 0.0;
@@ -135,7 +141,7 @@ TEST(WallTexture, MustNotReflectMoreLightThanThereIs) {
 
 // The strictest case that is allowed still has reflectances up to 1 and keeps its means.
 TEST_P(WallTextures, KeepTheirMeansUpToTheBrightestAllowed) {
-  WallOptions wall = Wall(GetParam(), 0.2, "brick_red");
+  WallOptions wall = Wall(GetParam(), 0.2, Hue::kBrickRed);
   while (TextureObjection(wall).empty()) wall.paint.reflectance += 0.01;
   wall.paint.reflectance -= 0.01;
   while (TextureObjection(wall).empty()) wall.paint.reflectance_830nm += 0.01;
