@@ -33,33 +33,41 @@ FENESTRA_WIDE Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x,
 
 FENESTRA_WIDE PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x,
                                           const Lanes<uint32_t>& net_y,
-                                          const Lanes<uint32_t>& pixel,
-                                          const ImageScramble& scramble) {
+                                          const Lanes<uint32_t>& seed_x,
+                                          const Lanes<uint32_t>& seed_y) {
   PixelPoints points;
   for (int i = 0; i < kLanes; ++i) {
-    const NetPoint seed = scramble.OfPixel(pixel[i]);
-    points.s[i] = ToUnit(OwenScrambled(net_x[i], seed.x));
-    points.t[i] = ToUnit(OwenScrambled(net_y[i], seed.y));
+    points.s[i] = ToUnit(OwenScrambled(net_x[i], seed_x[i]));
+    points.t[i] = ToUnit(OwenScrambled(net_y[i], seed_y[i]));
   }
   return points;
 }
 
-FENESTRA_WIDE ImagePoints InPixels(const float* corner_data, const Lanes<uint32_t>& corner,
-                                   uint32_t stride, const PixelPoints& points) {
+FENESTRA_WIDE PixelPatches PatchesOf(const float* corner_data, const Lanes<uint32_t>& corner,
+                                     uint32_t stride) {
+  PixelPatches p;
+  for (int i = 0; i < kLanes; ++i) {
+    const float* top = corner_data + 2 * corner[i];
+    const float* low = top + 2 * stride;
+    p.x0[i] = top[0];
+    p.xs[i] = top[2] - top[0];
+    p.xt[i] = low[0] - top[0];
+    p.xst[i] = (low[2] - low[0]) - (top[2] - top[0]);
+    p.y0[i] = top[1];
+    p.ys[i] = top[3] - top[1];
+    p.yt[i] = low[1] - top[1];
+    p.yst[i] = (low[3] - low[1]) - (top[3] - top[1]);
+  }
+  return p;
+}
+
+FENESTRA_WIDE ImagePoints InPixels(const PixelPatches& p, const PixelPoints& points) {
   ImagePoints out;
   for (int i = 0; i < kLanes; ++i) {
     const float s = points.s[i];
     const float t = points.t[i];
-    const uint32_t c00 = 2 * corner[i];
-    const uint32_t c10 = c00 + 2;
-    const uint32_t c01 = c00 + 2 * stride;
-    const uint32_t c11 = c01 + 2;
-    const float x_top = corner_data[c00] + s * (corner_data[c10] - corner_data[c00]);
-    const float x_low = corner_data[c01] + s * (corner_data[c11] - corner_data[c01]);
-    const float y_top = corner_data[c00 + 1] + s * (corner_data[c10 + 1] - corner_data[c00 + 1]);
-    const float y_low = corner_data[c01 + 1] + s * (corner_data[c11 + 1] - corner_data[c01 + 1]);
-    out.x[i] = x_top + t * (x_low - x_top);
-    out.y[i] = y_top + t * (y_low - y_top);
+    out.x[i] = p.x0[i] + s * p.xs[i] + t * (p.xt[i] + s * p.xst[i]);
+    out.y[i] = p.y0[i] + s * p.ys[i] + t * (p.yt[i] + s * p.yst[i]);
   }
   return out;
 }
@@ -78,16 +86,24 @@ FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangl
   return side;
 }
 
-FENESTRA_WIDE LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
-                                     const RayPacket& packet) {
-  LaneLight light;
+FENESTRA_WIDE Lanes<float> AmbientLeaving(const SideRadiance* sides,
+                                          const Lanes<uint32_t>& side_hit,
+                                          const RayPacket& packet) {
+  Lanes<float> light;
   for (int i = 0; i < kLanes; ++i) {
     const SideRadiance& side = sides[side_hit[i]];
-    const float u = packet.hit.u[i];
-    const float v = packet.hit.v[i];
-    const float sun = side.sun + side.sun_u * u + side.sun_v * v;
-    light.ambient[i] = side.ambient + side.ambient_u * u + side.ambient_v * v;
-    light.sun[i] = sun > 0.0f ? sun : 0.0f;
+    light[i] = side.ambient + side.ambient_u * packet.hit.u[i] + side.ambient_v * packet.hit.v[i];
+  }
+  return light;
+}
+
+FENESTRA_WIDE Lanes<float> SunLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
+                                      const RayPacket& packet) {
+  Lanes<float> light;
+  for (int i = 0; i < kLanes; ++i) {
+    const SideRadiance& side = sides[side_hit[i]];
+    const float sun = side.sun + side.sun_u * packet.hit.u[i] + side.sun_v * packet.hit.v[i];
+    light[i] = sun > 0.0f ? sun : 0.0f;
   }
   return light;
 }

@@ -220,18 +220,18 @@ LightTransport::Ends LightTransport::Shade(const LaneMask& mask, const RayPacket
                                            const Lanes<float>& before) const {
   Ends ends;
   ends.side_hit = SidesHit(packet, static_cast<uint32_t>(surfaces_.traced.opaque().size()));
-  std::array<LaneLight, kMostChannels> light;
-  Lanes<float> sun_facing;
   for (size_t c = 0; c < channels_.size(); ++c) {
-    light[c] = LightLeaving(sides_[c].data(), ends.side_hit, packet);
-    ends.radiance[c] = light[c].ambient;
-    KeepLarger(light[c].sun, sun_facing);
+    ends.radiance[c] = AmbientLeaving(sides_[c].data(), ends.side_hit, packet);
   }
   if (has_sun_) {
-    ends.sun = SunReaching(mask, packet, sun_facing);
+    std::array<Lanes<float>, kMostChannels> sun;
+    Lanes<float> sun_facing;
     for (size_t c = 0; c < channels_.size(); ++c) {
-      AddScaled(light[c].sun, ends.sun, ends.radiance[c]);
+      sun[c] = SunLeaving(sides_[c].data(), ends.side_hit, packet);
+      KeepLarger(sun[c], sun_facing);
     }
+    ends.sun = SunReaching(mask, packet, sun_facing);
+    for (size_t c = 0; c < channels_.size(); ++c) AddScaled(sun[c], ends.sun, ends.radiance[c]);
   }
   if (lamp_dimmer_ > 0.0f && !surfaces_.scene.lamps.empty()) AddLamps(mask, packet, ends);
   if (surfaces_.traced.patterns().any()) ApplyPatterns(mask, packet, before, ends);
