@@ -40,8 +40,10 @@ class EdgeSearch {
   EdgeSearch(const PixelSampler& sampler, Film::Pixel pixel)
       : sampler_(sampler), pixel_(pixel), patch_(sampler.PatchOf(pixel)) {}
 
-  std::optional<Film::PixelResult> Run() {
-    if (!Look()) return std::nullopt;
+  std::optional<Film::PixelResult> Run(const Film::PixelResult& known) {
+    if (!LookAtBorders()) return std::nullopt;
+    if (thing_count_ == 1 && things_[0].key == known.key) return known;
+    if (!LookInside()) return std::nullopt;
     if (thing_count_ == 1) return Result(1.0f, things_[0].key);
     const float ds = things_[0].s_sum / static_cast<float>(things_[0].count) -
                      things_[1].s_sum / static_cast<float>(things_[1].count);
@@ -78,11 +80,15 @@ class EdgeSearch {
     return true;
   }
 
-  bool Look() {
+  bool LookInside() {
     for (int first = 0; first < kProbes; first += kLanes) {
       const PixelPoints points = sampler_.SamplePoints(pixel_, first);
       if (!Note(points, sampler_.Trace(patch_, points))) return false;
     }
+    return true;
+  }
+
+  bool LookAtBorders() {
     for (int border = 0; border < kBorders; ++border) {
       PixelPoints points;
       for (int i = 0; i < kLanes; ++i) {
@@ -193,8 +199,9 @@ class EdgeSearch {
 
 }  // namespace
 
-std::optional<Film::PixelResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel) {
-  return EdgeSearch(sampler, pixel).Run();
+std::optional<Film::PixelResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel,
+                                            const Film::PixelResult& known) {
+  return EdgeSearch(sampler, pixel).Run(known);
 }
 
 }  // namespace fenestra

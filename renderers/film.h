@@ -33,6 +33,14 @@ class Film {
     keys_(pixel.row, pixel.column) = static_cast<int>(result.key);
   }
 
+  PixelResult At(Pixel pixel) const {
+    PixelResult result;
+    const float* in = radiance_.ptr<float>(pixel.row) + pixel.column * channels_;
+    for (int c = 0; c < channels_; ++c) result.radiance[static_cast<size_t>(c)] = in[c];
+    result.key = static_cast<uint32_t>(keys_(pixel.row, pixel.column));
+    return result;
+  }
+
   /// 255 where a pixel or one of its eight neighbours is mixed, or a neighbour has seen something
   /// else: since samples may miss a corner that an edge cuts off, both sides of it count.
   cv::Mat1b Edges() const;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderers/fresnel.h"
 #include "renderers/net_samples.h"
 #include "renderers/wide.h"
 
@@ -132,6 +133,71 @@ FENESTRA_WIDE RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m,
     out.mask[i] = ~0u;
     out.id[i] = 0u;
     out.flags[i] = 0u;
+  }
+  return out;
+}
+
+FENESTRA_WIDE Lanes<float> PaneReflectances(const LaneMask& panes, const RayPacket& packet,
+                                            const float* index) {
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  Lanes<float> reflectance;
+  for (int i = 0; i < kLanes; ++i) {
+    const bool on = panes[i] != 0;
+    const float nx = hit.Ng_x[i];
+    const float ny = hit.Ng_y[i];
+    const float nz = hit.Ng_z[i];
+    const float dx = ray.dir_x[i];
+    const float dy = ray.dir_y[i];
+    const float dz = ray.dir_z[i];
+    const float nn = nx * nx + ny * ny + nz * nz;
+    const float dd = dx * dx + dy * dy + dz * dz;
+    const float nd = nx * dx + ny * dy + nz * dz;
+    const float cosine = (nd < 0.0f ? -nd : nd) / std::sqrt(nn * dd);
+    const float R = PaneReflectance(cosine, index[on ? hit.primID[i] : 0u]);
+    reflectance[i] = on ? R : 0.0f;
+  }
+  return reflectance;
+}
+
+FENESTRA_WIDE RayPacket MirroredRays(const LaneMask& panes, const RayPacket& packet,
+                                     float offset_m) {
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  RayPacket out;
+  for (int i = 0; i < kLanes; ++i) {
+    const bool on = panes[i] != 0;
+    const float nx = hit.Ng_x[i];
+    const float ny = hit.Ng_y[i];
+    const float nz = hit.Ng_z[i];
+    const float dx = ray.dir_x[i];
+    const float dy = ray.dir_y[i];
+    const float dz = ray.dir_z[i];
+    const float nn = nx * nx + ny * ny + nz * nz;
+    const float nd = nx * dx + ny * dy + nz * dz;
+    const float twice = 2.0f * nd / nn;
+    const float unit = offset_m / std::sqrt(nn);
+    const float off = nd < 0.0f ? unit : -unit;
+    out.ray.org_x[i] = ray.org_x[i] + ray.tfar[i] * dx + off * nx;
+    out.ray.org_y[i] = ray.org_y[i] + ray.tfar[i] * dy + off * ny;
+    out.ray.org_z[i] = ray.org_z[i] + ray.tfar[i] * dz + off * nz;
+    out.ray.tnear[i] = 0.0f;
+    out.ray.dir_x[i] = on ? dx - twice * nx : 0.0f;
+    out.ray.dir_y[i] = on ? dy - twice * ny : 0.0f;
+    out.ray.dir_z[i] = on ? dz - twice * nz : 0.0f;
+    out.ray.time[i] = 0.0f;
+    out.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    out.ray.mask[i] = ~0u;
+    out.ray.id[i] = 0u;
+    out.ray.flags[i] = 0u;
+    out.hit.Ng_x[i] = 0.0f;
+    out.hit.Ng_y[i] = -1.0f;
+    out.hit.Ng_z[i] = 0.0f;
+    out.hit.u[i] = 0.0f;
+    out.hit.v[i] = 0.0f;
+    out.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
+    out.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    out.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   return out;
 }

@@ -71,6 +71,14 @@ Lanes<float> SunLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_h
 /// that the packet's rays came from.
 RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m, const glm::vec3& direction_W);
 
+/// Reflectances of the panes that lanes of the mask have hit, 0 in other lanes; `index` is the
+/// refractive index of each triangle.
+Lanes<float> PaneReflectances(const LaneMask& panes, const RayPacket& packet, const float* index);
+
+/// Rays mirrored where lanes of the mask have hit panes, starting `offset_m` before them; other
+/// lanes have no direction.
+RayPacket MirroredRays(const LaneMask& panes, const RayPacket& packet, float offset_m);
+
 /// table[index[i]] of each lane.
 Lanes<uint32_t> LookUp(const uint32_t* table, const Lanes<uint32_t>& index);
 

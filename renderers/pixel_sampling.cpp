@@ -13,7 +13,7 @@ namespace fenestra {
 namespace {
 
 void SampleEdgePixel(const PixelSampler& sampler, int samples, Film::Pixel pixel, Film& film) {
-  if (const auto found = SearchEdge(sampler, pixel)) {
+  if (const auto found = SearchEdge(sampler, pixel, film.At(pixel))) {
     film.Set(pixel, *found);
   } else if (samples >= kLanes) {
     film.Set(pixel, sampler.SampleDensely(pixel, samples));
