@@ -7,6 +7,7 @@
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/extensions.h"
 #include "scenes/gltf/fault_list.h"
+#include "scenes/gltf/instancing.h"
 #include "scenes/gltf/schema_check.h"
 #include "scenes/gltf/structure_check.h"
 #include "scenes/gltf/uri.h"
@@ -71,6 +72,7 @@ void CheckStructure(const Document& document, const tinygltf::Model& model,
   CheckMeshes(model, faults);
   CheckNodes(model, document.json, faults);
   CheckSkins(model, faults);
+  CheckInstancing(model, faults);
   CheckCamerasAndLights(document.json, faults);
   CheckAnimations(document.json, faults);
   faults.ThrowIfAny();

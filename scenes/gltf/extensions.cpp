@@ -12,11 +12,10 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 8> kSupported = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",   "KHR_materials_transmission",
-    "KHR_materials_unlit", "KHR_mesh_quantization",
-    "KHR_node_visibility", "KHR_texture_transform"};
+constexpr std::array<std::string_view, 9> kSupported = {
+    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",        "KHR_materials_emissive_strength",
+    "KHR_materials_ior",       "KHR_materials_transmission", "KHR_materials_unlit",
+    "KHR_mesh_quantization",   "KHR_node_visibility",        "KHR_texture_transform"};
 
 std::vector<std::string> Names(const json& root, const char* member) {
   std::vector<std::string> names;

@@ -174,16 +174,12 @@ const ObjectSchema& Material() {
   return schema;
 }
 
-const ObjectSchema& Attributes() {
-  static const ObjectSchema schema{.members_refer_to = "accessors"};
-  return schema;
-}
-
 const ObjectSchema& Primitive() {
   static const ObjectSchema schema{
-      .properties = {Object("attributes", Attributes()).Required(),
+      .properties = {Object("attributes", schemas::Attributes()).Required(),
                      Reference("indices", "accessors"), Reference("material", "materials"),
-                     Code("mode", {0, 1, 2, 3, 4, 5, 6}), Object("targets", Attributes()).Array()}};
+                     Code("mode", {0, 1, 2, 3, 4, 5, 6}),
+                     Object("targets", schemas::Attributes()).Array()}};
   return schema;
 }
 
@@ -203,7 +199,8 @@ const ObjectSchema& Node() {
                      Number("rotation").Array(4, 4).AtLeast(-1).AtMost(1),
                      Number("scale").Array(3, 3), Number("translation").Array(3, 3),
                      Number("weights").Array(), String("name")},
-      .extensions = {{"KHR_lights_punctual", &schemas::NodeLight()},
+      .extensions = {{"EXT_mesh_gpu_instancing", &schemas::Instancing()},
+                     {"KHR_lights_punctual", &schemas::NodeLight()},
                      {"KHR_node_visibility", &schemas::Visibility()}},
       .extras = &schemas::NodeExtras()};
   return schema;

@@ -84,6 +84,8 @@ const ObjectSchema& RootSchema();
 /// What stands under an extension's name or in `extras.fenestra`, for each kind of object.
 namespace schemas {
 const ObjectSchema& Empty();
+const ObjectSchema& Attributes();
+const ObjectSchema& Instancing();
 const ObjectSchema& TextureTransform();
 const ObjectSchema& Transmission();
 const ObjectSchema& IndexOfRefraction();

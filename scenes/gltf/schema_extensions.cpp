@@ -38,6 +38,16 @@ const ObjectSchema& Empty() {
   return schema;
 }
 
+const ObjectSchema& Attributes() {
+  static const ObjectSchema schema{.members_refer_to = "accessors"};
+  return schema;
+}
+
+const ObjectSchema& Instancing() {
+  static const ObjectSchema schema{.properties = {Object("attributes", Attributes()).Required()}};
+  return schema;
+}
+
 const ObjectSchema& TextureTransform() {
   static const ObjectSchema schema{.properties = {Number("offset").Array(2, 2), Number("rotation"),
                                                   Number("scale").Array(2, 2),

@@ -90,6 +90,10 @@ size_t ClaimedTriangles(const Asset& asset, const tinygltf::Primitive& primitive
   return TriangleCount(primitive.mode, AccessorCount(asset, source));
 }
 
+size_t ClaimedVertices(const Asset& asset, const tinygltf::Primitive& primitive) {
+  return AccessorCount(asset, primitive.attributes.at("POSITION"));
+}
+
 Surface ReadSurface(const Asset& asset, const tinygltf::Primitive& primitive,
                     const std::optional<TextureUse>& texture, const std::vector<double>& weights,
                     const std::string& name, Notes& notes) {

@@ -28,8 +28,9 @@ struct Surface {
   std::vector<JointWeights> joint_sets;
 };
 
-/// How many triangles a primitive claims to have; nothing is read for it.
+/// How many triangles and vertices a primitive claims to have; nothing is read for it.
 size_t ClaimedTriangles(const Asset& asset, const tinygltf::Primitive& primitive);
+size_t ClaimedVertices(const Asset& asset, const tinygltf::Primitive& primitive);
 
 /// Whether a primitive makes a surface: it has positions and triangles.
 bool IsSurface(const tinygltf::Primitive& primitive);
