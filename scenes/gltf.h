@@ -34,9 +34,9 @@ struct GltfReadOptions {
   /// The node that is the target window, by name. Its node extras give the rectangle; without them,
   /// the +z face of its subtree's bounding box in the node's axes does. Without a name, the node
   /// whose extras say `target_window`, if there is one.
-  std::optional<std::string> target_node;
+  std::optional<std::string> target_node = {};
   /// Which of the file's scenes. Without it, the file's default one or else the first.
-  std::optional<int> scene_index;
+  std::optional<int> scene_index = {};
   /// glTF gives cameras a field of view and no resolution.
   int camera_height_px = 480;
 

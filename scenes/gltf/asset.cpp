@@ -85,7 +85,7 @@ std::optional<Bytes> TryReadUri(const std::string& uri, const std::string& at,
   try {
     return ReadUri(uri, folder, budget);
   } catch (const std::invalid_argument& error) {
-    faults.Add(at + "/uri", fmt::format("'{}{}' {}", uri.substr(0, kMostShown),
+    faults.Add(at + "/uri", fmt::format("'{}{}': {}", uri.substr(0, kMostShown),
                                         uri.size() > kMostShown ? "…" : "", error.what()));
   } catch (const InputError& error) {
     faults.Add(at + "/uri", error.what());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <stdexcept>
 
 namespace fenestra::gltf {
@@ -84,15 +83,9 @@ std::string DecodePercent(std::string_view uri) {
   return text;
 }
 
-// RFC 3986: a letter, then letters, digits, '+', '-', '.', and a colon.
+// RFC 3986: in a relative path no colon stands before the first slash, so there it ends a scheme.
 bool HasScheme(std::string_view uri) {
-  const size_t colon = uri.find(':');
-  if (colon == uri.npos || colon == 0) return false;
-  return std::isalpha(static_cast<unsigned char>(uri[0])) != 0 &&
-         std::ranges::all_of(uri.substr(0, colon), [](char c) {
-           return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '+' || c == '-' ||
-                  c == '.';
-         });
+  return uri.substr(0, uri.find('/')).find(':') != uri.npos;
 }
 
 bool IsInside(const std::filesystem::path& file, const std::filesystem::path& folder) {
@@ -104,7 +97,7 @@ std::filesystem::path FileInFolder(std::string_view uri, const std::filesystem::
   if (uri.empty()) throw std::invalid_argument("an empty URI");
   const std::string name = DecodePercent(uri);
   if (name.find('\0') != name.npos) throw std::invalid_argument("a URI with a zero byte");
-  if (HasScheme(uri) || HasScheme(name)) {
+  if (HasScheme(uri)) {
     throw std::invalid_argument("only data URIs and relative paths are read");
   }
   if (name.starts_with('/') || name.find('\\') != name.npos) {
