@@ -37,10 +37,13 @@ struct Thing {
 
 class EdgeSearch {
  public:
-  EdgeSearch(const PixelSampler& sampler, Film::Pixel pixel) : sampler_(sampler), pixel_(pixel) {}
+  EdgeSearch(const PixelSampler& sampler, Film::Pixel pixel)
+      : sampler_(sampler), pixel_(pixel), patch_(sampler.PatchOf(pixel)) {}
 
-  std::optional<Film::PixelResult> Run() {
-    if (!Look()) return std::nullopt;
+  std::optional<Film::PixelResult> Run(const Film::PixelResult& known) {
+    if (!LookAtBorders()) return std::nullopt;
+    if (thing_count_ == 1 && things_[0].key == known.key) return known;
+    if (!LookInside()) return std::nullopt;
     if (thing_count_ == 1) return Result(1.0f, things_[0].key);
     const float ds = things_[0].s_sum / static_cast<float>(things_[0].count) -
                      things_[1].s_sum / static_cast<float>(things_[1].count);
@@ -77,11 +80,15 @@ class EdgeSearch {
     return true;
   }
 
-  bool Look() {
+  bool LookInside() {
     for (int first = 0; first < kProbes; first += kLanes) {
       const PixelPoints points = sampler_.SamplePoints(pixel_, first);
-      if (!Note(points, sampler_.Trace(pixel_, points))) return false;
+      if (!Note(points, sampler_.Trace(patch_, points))) return false;
     }
+    return true;
+  }
+
+  bool LookAtBorders() {
     for (int border = 0; border < kBorders; ++border) {
       PixelPoints points;
       for (int i = 0; i < kLanes; ++i) {
@@ -89,7 +96,7 @@ class EdgeSearch {
         points.s[i] = border < 2 ? end : LineAt(i);
         points.t[i] = border < 2 ? LineAt(i) : end;
       }
-      const Arriving arriving = sampler_.Trace(pixel_, points);
+      const Arriving arriving = sampler_.Trace(patch_, points);
       border_keys_[static_cast<size_t>(border)] = arriving.key;
       if (!Note(points, arriving)) return false;
     }
@@ -115,7 +122,7 @@ class EdgeSearch {
     // The points that bisection tries lie on a grid; shifted at random on each line, it leaves
     // errors that are independent and without bias.
     constexpr float kStep = 1.0f / ((1 << kBisections) - 1);
-    const uint32_t seed = sampler_.scramble().OfPixel(sampler_.IndexOf(pixel_)).x;
+    const uint32_t seed = sampler_.SeedsOf(pixel_).x;
     Lanes<float> low;
     Lanes<float> high;
     for (int i = 0; i < kLanes; ++i) {
@@ -129,7 +136,7 @@ class EdgeSearch {
         points.s[i] = along_s_ ? middle : LineAt(i);
         points.t[i] = along_s_ ? LineAt(i) : middle;
       }
-      const Arriving arriving = sampler_.Trace(pixel_, points);
+      const Arriving arriving = sampler_.Trace(patch_, points);
       for (int i = 0; i < kLanes; ++i) {
         const uint32_t key = arriving.key[i];
         if (key != things_[0].key && key != things_[1].key) return false;
@@ -179,6 +186,7 @@ class EdgeSearch {
 
   const PixelSampler& sampler_;
   Film::Pixel pixel_;
+  PixelPatches patch_;
   std::array<Thing, 2> things_;
   size_t thing_count_ = 0;
   std::array<Sighting, kProbes + kBorders * kLanes> sightings_;
@@ -191,8 +199,9 @@ class EdgeSearch {
 
 }  // namespace
 
-std::optional<Film::PixelResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel) {
-  return EdgeSearch(sampler, pixel).Run();
+std::optional<Film::PixelResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel,
+                                            const Film::PixelResult& known) {
+  return EdgeSearch(sampler, pixel).Run(known);
 }
 
 }  // namespace fenestra

@@ -181,14 +181,14 @@ class Baker {
     SetRays(packet, point.p_W + offset_m_ * point.n_W, soa);
     std::array<Ending, kLanes> endings;
     for (Ending& ending : endings) ending.transmittance = 1.0f;
-    scene_.IntersectThroughPanes(FirstLanes(kLanes), packet, Coherence::kCoherent,
-                                 [&](const LaneMask& panes, const RayPacket& at_panes) {
-                                   for (int i = 0; i < kLanes; ++i) {
-                                     if (panes[i] == 0) continue;
-                                     endings[static_cast<size_t>(i)].transmittance *=
-                                         1.0f - scene_.HitReflectance(at_panes, i);
-                                   }
-                                 });
+    scene_.IntersectThroughPanes(
+        FirstLanes(kLanes), packet, Coherence::kCoherent,
+        [&](const LaneMask& panes, const RayPacket& at_panes) {
+          const Lanes<float> reflectance = scene_.ReflectancesHit(panes, at_panes);
+          for (int i = 0; i < kLanes; ++i) {
+            endings[static_cast<size_t>(i)].transmittance *= 1.0f - reflectance[i];
+          }
+        });
     const auto triangle_count = static_cast<uint32_t>(scene_.opaque().size());
     const Lanes<uint32_t> sides = SidesHit(packet, triangle_count);
     for (int i = 0; i < kLanes; ++i) {

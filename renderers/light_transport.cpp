@@ -26,39 +26,10 @@ glm::vec3 DirectionOf(const RayPacket& packet, int i) {
   return At(packet.ray.dir_x, packet.ray.dir_y, packet.ray.dir_z, i);
 }
 
-glm::vec3 HitPoint(const RayPacket& packet, int i) {
-  return At(packet.ray.org_x, packet.ray.org_y, packet.ray.org_z, i) +
-         packet.ray.tfar[i] * DirectionOf(packet, i);
-}
-
 // Unit normal on the side that the ray came from.
 glm::vec3 FacingNormal(const RayPacket& packet, int i) {
   const glm::vec3 n = glm::normalize(At(packet.hit.Ng_x, packet.hit.Ng_y, packet.hit.Ng_z, i));
   return glm::dot(n, DirectionOf(packet, i)) > 0.0f ? -n : n;
-}
-
-// The mirrored rays from where lanes of a packet hit panes.
-RayPacket Mirrored(const LaneMask& panes, const RayPacket& packet, float offset_m) {
-  Directions directions;
-  Lanes<glm::vec3> origins;
-  for (int i = 0; i < kLanes; ++i) {
-    if (panes[i] == 0) continue;
-    const glm::vec3 d = DirectionOf(packet, i);
-    const glm::vec3 n = FacingNormal(packet, i);
-    const glm::vec3 mirrored = d - 2.0f * glm::dot(d, n) * n;
-    directions.x[i] = mirrored.x;
-    directions.y[i] = mirrored.y;
-    directions.z[i] = mirrored.z;
-    origins[i] = HitPoint(packet, i) + offset_m * n;
-  }
-  RayPacket mirrored;
-  SetRays(mirrored, glm::vec3(0.0f), directions);
-  for (int i = 0; i < kLanes; ++i) {
-    mirrored.ray.org_x[i] = origins[i].x;
-    mirrored.ray.org_y[i] = origins[i].y;
-    mirrored.ray.org_z[i] = origins[i].z;
-  }
-  return mirrored;
 }
 
 FENESTRA_WIDE bool SunwardLanes(const LaneMask& mask, const Lanes<float>& sun_facing,
@@ -220,18 +191,18 @@ LightTransport::Ends LightTransport::Shade(const LaneMask& mask, const RayPacket
                                            const Lanes<float>& before) const {
   Ends ends;
   ends.side_hit = SidesHit(packet, static_cast<uint32_t>(surfaces_.traced.opaque().size()));
-  std::array<LaneLight, kMostChannels> light;
-  Lanes<float> sun_facing;
   for (size_t c = 0; c < channels_.size(); ++c) {
-    light[c] = LightLeaving(sides_[c].data(), ends.side_hit, packet);
-    ends.radiance[c] = light[c].ambient;
-    KeepLarger(light[c].sun, sun_facing);
+    ends.radiance[c] = AmbientLeaving(sides_[c].data(), ends.side_hit, packet);
   }
   if (has_sun_) {
-    ends.sun = SunReaching(mask, packet, sun_facing);
+    std::array<Lanes<float>, kMostChannels> sun;
+    Lanes<float> sun_facing;
     for (size_t c = 0; c < channels_.size(); ++c) {
-      AddScaled(light[c].sun, ends.sun, ends.radiance[c]);
+      sun[c] = SunLeaving(sides_[c].data(), ends.side_hit, packet);
+      KeepLarger(sun[c], sun_facing);
     }
+    ends.sun = SunReaching(mask, packet, sun_facing);
+    for (size_t c = 0; c < channels_.size(); ++c) AddScaled(sun[c], ends.sun, ends.radiance[c]);
   }
   if (lamp_dimmer_ > 0.0f && !surfaces_.scene.lamps.empty()) AddLamps(mask, packet, ends);
   if (surfaces_.traced.patterns().any()) ApplyPatterns(mask, packet, before, ends);
@@ -244,11 +215,8 @@ LightTransport::Ends LightTransport::TraceOpaque(const LaneMask& mask, RayPacket
   transmittance.v.fill(1.0f);
   surfaces_.traced.IntersectThroughPanes(
       mask, packet, Coherence::kCoherent, [&](const LaneMask& panes, const RayPacket& at_panes) {
-        for (int i = 0; i < kLanes; ++i) {
-          if (panes[i] != 0) {
-            transmittance[i] *= 1.0f - surfaces_.traced.HitReflectance(at_panes, i);
-          }
-        }
+        const Lanes<float> reflectance = surfaces_.traced.ReflectancesHit(panes, at_panes);
+        for (int i = 0; i < kLanes; ++i) transmittance[i] *= 1.0f - reflectance[i];
       });
   Ends ends = Shade(mask, packet, {});
   ends.transmittance = transmittance;
@@ -272,19 +240,20 @@ LightTransport::Arriving LightTransport::Trace(const LaneMask& mask, RayPacket& 
       mask, packet, Coherence::kCoherent, [&](const LaneMask& panes, const RayPacket& at_panes) {
         if (!any_pane) throughput.v.fill(1.0f);
         any_pane = true;
-        RayPacket mirror_packet = Mirrored(panes, at_panes, offset_m_);
+        RayPacket mirror_packet = MirroredRays(panes, at_panes, offset_m_);
         traced.opaque_tracer().Intersect(panes, mirror_packet, Coherence::kCoherent);
         Lanes<float> before;
         std::copy_n(at_panes.ray.tfar, kLanes, before.data());
         const Arriving mirror = WithKeys(Shade(panes, mirror_packet, before));
+        const Lanes<float> reflectance = traced.ReflectancesHit(panes, at_panes);
+        Lanes<float> mirror_part;
+        for (int i = 0; i < kLanes; ++i) mirror_part[i] = throughput[i] * reflectance[i];
+        for (size_t c = 0; c < channels_.size(); ++c) {
+          AddScaled(mirror.radiance[c], mirror_part, mirrored[c]);
+        }
         for (int i = 0; i < kLanes; ++i) {
-          if (panes[i] == 0) continue;
-          const float R = traced.HitReflectance(at_panes, i);
-          for (size_t c = 0; c < channels_.size(); ++c) {
-            mirrored[c][i] += throughput[i] * R * mirror.radiance[c][i];
-          }
-          throughput[i] *= 1.0f - R;
-          mirror_keys[i] = Mix(mirror_keys[i], mirror.key[i]);
+          throughput[i] -= mirror_part[i];
+          if (panes[i] != 0) mirror_keys[i] = Mix(mirror_keys[i], mirror.key[i]);
         }
       });
   Arriving arriving = WithKeys(Shade(mask, packet, {}));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderers/wide.h"
+
 namespace fenestra {
 namespace {
 
@@ -9,6 +11,35 @@ Lanes<uint32_t> AllLanes(uint32_t value) {
   Lanes<uint32_t> lanes;
   lanes.v.fill(value);
   return lanes;
+}
+
+// The pixels of a block as lanes, row by row.
+struct Block {
+  Lanes<uint32_t> corner;
+  Lanes<uint32_t> seed_x;
+  Lanes<uint32_t> seed_y;
+};
+
+FENESTRA_WIDE Block MakeBlock(uint32_t corner, uint32_t stride, uint32_t index, uint32_t width,
+                              const ImageScramble& scramble) {
+  Block block;
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const uint32_t column = i % PixelSampler::kBlock;
+    const uint32_t row = i / PixelSampler::kBlock;
+    const NetPoint seed = scramble.OfPixel(index + row * width + column);
+    block.corner.v[i] = corner + row * stride + column;
+    block.seed_x.v[i] = seed.x;
+    block.seed_y.v[i] = seed.y;
+  }
+  return block;
+}
+
+FENESTRA_WIDE void Accumulate(const Lanes<float>& values, Lanes<float>& sums) {
+  for (int i = 0; i < kLanes; ++i) sums[i] += values[i];
+}
+
+FENESTRA_WIDE void MixKeys(const Lanes<uint32_t>& keys, Lanes<uint32_t>& kept) {
+  for (int i = 0; i < kLanes; ++i) kept[i] = keys[i] == kept[i] ? kept[i] : Film::kMixed;
 }
 
 }  // namespace
@@ -21,16 +52,21 @@ PixelSampler::PixelSampler(const LightTransport& light, const RayGrid& rays,
       scramble_(key),
       stride_(static_cast<uint32_t>(rays.width_px()) + 1) {}
 
-LightTransport::Arriving PixelSampler::TraceImagePoints(const LaneMask& mask,
-                                                        const ImagePoints& points) const {
+LightTransport::Arriving PixelSampler::Trace(const LaneMask& mask, const PixelPatches& patches,
+                                             const PixelPoints& points) const {
+  const ImagePoints image = InPixels(patches, points);
   RayPacket packet;
-  SetRays(packet, camera_.p_WC, ToWorld(camera_.axes, points.x, points.y));
+  SetRays(packet, camera_.p_WC, ToWorld(camera_.axes, image.x, image.y));
   return light_.Trace(mask, packet);
 }
 
-LightTransport::Arriving PixelSampler::Trace(Film::Pixel pixel, const PixelPoints& points) const {
-  return TraceImagePoints(FirstLanes(kLanes), InPixels(rays_.corner_data(),
-                                                       AllLanes(CornerOf(pixel)), stride_, points));
+LightTransport::Arriving PixelSampler::Trace(const PixelPatches& patches,
+                                             const PixelPoints& points) const {
+  return Trace(FirstLanes(kLanes), patches, points);
+}
+
+PixelPatches PixelSampler::PatchOf(Film::Pixel pixel) const {
+  return PatchesOf(rays_.corner_data(), AllLanes(CornerOf(pixel)), stride_);
 }
 
 PixelPoints PixelSampler::SamplePoints(Film::Pixel pixel, int first) const {
@@ -38,17 +74,17 @@ PixelPoints PixelSampler::SamplePoints(Film::Pixel pixel, int first) const {
   Lanes<uint32_t> net_y;
   std::copy_n(&kNetTable.x[static_cast<size_t>(first)], kLanes, net_x.data());
   std::copy_n(&kNetTable.y[static_cast<size_t>(first)], kLanes, net_y.data());
-  return ScrambledPoints(net_x, net_y, AllLanes(IndexOf(pixel)), scramble_);
+  const NetPoint seeds = SeedsOf(pixel);
+  return ScrambledPoints(net_x, net_y, AllLanes(seeds.x), AllLanes(seeds.y));
 }
 
 Film::PixelResult PixelSampler::SampleDensely(Film::Pixel pixel, int samples) const {
+  const PixelPatches patch = PatchOf(pixel);
   std::array<Lanes<float>, LightTransport::kMostChannels> sums{};
   Film::PixelResult result;
   for (int first = 0; first < samples; first += kLanes) {
-    const LightTransport::Arriving arriving = Trace(pixel, SamplePoints(pixel, first));
-    for (size_t c = 0; c < channel_count(); ++c) {
-      for (int i = 0; i < kLanes; ++i) sums[c][i] += arriving.radiance[c][i];
-    }
+    const LightTransport::Arriving arriving = Trace(patch, SamplePoints(pixel, first));
+    for (size_t c = 0; c < channel_count(); ++c) Accumulate(arriving.radiance[c], sums[c]);
     if (first == 0) result.key = arriving.key[0];
     for (int i = 0; i < kLanes; ++i) {
       if (arriving.key[i] != result.key) result.key = Film::kMixed;
@@ -62,36 +98,56 @@ Film::PixelResult PixelSampler::SampleDensely(Film::Pixel pixel, int samples) co
   return result;
 }
 
-void PixelSampler::SampleSparsely(const std::array<Film::Pixel, kLanes>& pixels, int count,
-                                  int samples, Film& film) const {
-  Lanes<uint32_t> index;
-  Lanes<uint32_t> corner;
-  Lanes<uint32_t> net_x;
-  Lanes<uint32_t> net_y;
-  for (int i = 0; i < count * samples; ++i) {
-    const Film::Pixel& pixel = pixels[static_cast<size_t>(i / samples)];
-    index[i] = IndexOf(pixel);
-    corner[i] = CornerOf(pixel);
-    net_x[i] = kNetTable.x[static_cast<size_t>(i % samples)];
-    net_y[i] = kNetTable.y[static_cast<size_t>(i % samples)];
+Film::PixelResult PixelSampler::SampleSparsely(Film::Pixel pixel, int samples) const {
+  const LightTransport::Arriving arriving =
+      Trace(FirstLanes(samples), PatchOf(pixel), SamplePoints(pixel, 0));
+  Film::PixelResult result;
+  result.key = arriving.key[0];
+  for (int i = 0; i < samples; ++i) {
+    if (arriving.key[i] != result.key) result.key = Film::kMixed;
+    for (size_t c = 0; c < channel_count(); ++c) result.radiance[c] += arriving.radiance[c][i];
   }
-  const PixelPoints points = ScrambledPoints(net_x, net_y, index, scramble_);
-  const LightTransport::Arriving arriving = TraceImagePoints(
-      FirstLanes(count * samples), InPixels(rays_.corner_data(), corner, stride_, points));
-  const float weight = 1.0f / static_cast<float>(samples);
-  for (int p = 0; p < count; ++p) {
-    const int first = p * samples;
-    Film::PixelResult result;
-    result.key = arriving.key[first];
-    for (int i = first + 1; i < first + samples; ++i) {
-      if (arriving.key[i] != arriving.key[first]) result.key = Film::kMixed;
+  for (float& radiance : result.radiance) radiance /= static_cast<float>(samples);
+  return result;
+}
+
+void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) const {
+  const int columns = std::min(kBlock, rays_.width_px() - top_left.column);
+  const int rows = std::min(kBlock, rays_.height_px() - top_left.row);
+  if (columns < kBlock || rows < kBlock) {
+    for (int row = top_left.row; row < top_left.row + rows; ++row) {
+      for (int column = top_left.column; column < top_left.column + columns; ++column) {
+        film.Set({column, row}, SampleSparsely({column, row}, samples));
+      }
+    }
+    return;
+  }
+  const Block block = MakeBlock(CornerOf(top_left), stride_, IndexOf(top_left),
+                                static_cast<uint32_t>(rays_.width_px()), scramble_);
+  const PixelPatches patches = PatchesOf(rays_.corner_data(), block.corner, stride_);
+  const LaneMask all = FirstLanes(kLanes);
+  LightTransport::Arriving sums;
+  for (int sample = 0; sample < samples; ++sample) {
+    const auto j = static_cast<size_t>(sample);
+    const LightTransport::Arriving arriving =
+        Trace(all, patches,
+              ScrambledPoints(AllLanes(kNetTable.x[j]), AllLanes(kNetTable.y[j]), block.seed_x,
+                              block.seed_y));
+    if (sample == 0) {
+      sums = arriving;
+      continue;
     }
     for (size_t c = 0; c < channel_count(); ++c) {
-      float sum = 0.0f;
-      for (int i = first; i < first + samples; ++i) sum += arriving.radiance[c][i];
-      result.radiance[c] = weight * sum;
+      Accumulate(arriving.radiance[c], sums.radiance[c]);
     }
-    film.Set(pixels[static_cast<size_t>(p)], result);
+    MixKeys(arriving.key, sums.key);
+  }
+  const float weight = 1.0f / static_cast<float>(samples);
+  for (int i = 0; i < kLanes; ++i) {
+    Film::PixelResult result;
+    result.key = sums.key[i];
+    for (size_t c = 0; c < channel_count(); ++c) result.radiance[c] = weight * sums.radiance[c][i];
+    film.Set({top_left.column + i % kBlock, top_left.row + i / kBlock}, result);
   }
 }
 

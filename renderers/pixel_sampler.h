@@ -12,18 +12,23 @@ namespace fenestra {
 /// Traces rays through places within the pixels of one image.
 class PixelSampler {
  public:
+  /// Pixels are sampled in square blocks of this many to a side: a lane for each pixel.
+  static constexpr int kBlock = 4;
+  static_assert(kBlock * kBlock == kLanes);
+
   /// Keeps references to all arguments but the key.
   PixelSampler(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
                uint64_t key);
 
   size_t channel_count() const { return static_cast<size_t>(light_.channel_count()); }
-  const ImageScramble& scramble() const { return scramble_; }
-  uint32_t IndexOf(Film::Pixel pixel) const {
-    return static_cast<uint32_t>(pixel.row * rays_.width_px() + pixel.column);
-  }
 
-  /// Sixteen places within one pixel.
-  LightTransport::Arriving Trace(Film::Pixel pixel, const PixelPoints& points) const;
+  /// The scrambling seeds of a pixel.
+  NetPoint SeedsOf(Film::Pixel pixel) const { return scramble_.OfPixel(IndexOf(pixel)); }
+
+  /// The pixel in all lanes.
+  PixelPatches PatchOf(Film::Pixel pixel) const;
+
+  LightTransport::Arriving Trace(const PixelPatches& patches, const PixelPoints& points) const;
 
   /// Samples [first, first + 16) of a pixel.
   PixelPoints SamplePoints(Film::Pixel pixel, int first) const;
@@ -31,12 +36,19 @@ class PixelSampler {
   /// The mean of `samples` samples, a multiple of 16.
   Film::PixelResult SampleDensely(Film::Pixel pixel, int samples) const;
 
-  /// 1 or 4 samples of each of 16 or 4 pixels; the first `count` of them are wanted.
-  void SampleSparsely(const std::array<Film::Pixel, kLanes>& pixels, int count, int samples,
-                      Film& film) const;
+  /// `samples` samples of each pixel of the block with this top left pixel, as far as it is in the
+  /// image.
+  void SampleBlock(Film::Pixel top_left, int samples, Film& film) const;
+
+  /// The same for one pixel.
+  Film::PixelResult SampleSparsely(Film::Pixel pixel, int samples) const;
 
  private:
-  LightTransport::Arriving TraceImagePoints(const LaneMask& mask, const ImagePoints& points) const;
+  LightTransport::Arriving Trace(const LaneMask& mask, const PixelPatches& patches,
+                                 const PixelPoints& points) const;
+  uint32_t IndexOf(Film::Pixel pixel) const {
+    return static_cast<uint32_t>(pixel.row * rays_.width_px() + pixel.column);
+  }
   uint32_t CornerOf(Film::Pixel pixel) const {
     return static_cast<uint32_t>(pixel.row) * stride_ + static_cast<uint32_t>(pixel.column);
   }

@@ -12,30 +12,13 @@
 namespace fenestra {
 namespace {
 
-// Few samples per pixel: packets of square blocks of pixels, cut at the image's border.
-void SampleBlocks(const PixelSampler& sampler, int samples, const cv::Size& size, Film& film) {
-  const int side = samples == 1 ? 4 : 2;
-  for (int top = 0; top < size.height; top += side) {
-    for (int left = 0; left < size.width; left += side) {
-      std::array<Film::Pixel, kLanes> pixels;
-      int count = 0;
-      for (int row = top; row < std::min(top + side, size.height); ++row) {
-        for (int column = left; column < std::min(left + side, size.width); ++column) {
-          pixels[static_cast<size_t>(count++)] = {column, row};
-        }
-      }
-      sampler.SampleSparsely(pixels, count, samples, film);
-    }
-  }
-}
-
 void SampleEdgePixel(const PixelSampler& sampler, int samples, Film::Pixel pixel, Film& film) {
-  if (const auto found = SearchEdge(sampler, pixel)) {
+  if (const auto found = SearchEdge(sampler, pixel, film.At(pixel))) {
     film.Set(pixel, *found);
   } else if (samples >= kLanes) {
     film.Set(pixel, sampler.SampleDensely(pixel, samples));
   } else {
-    sampler.SampleSparsely({pixel}, 1, samples, film);
+    film.Set(pixel, sampler.SampleSparsely(pixel, samples));
   }
 }
 
@@ -65,7 +48,11 @@ cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const Floa
   const cv::Size size(rays.width_px(), rays.height_px());
   Film film(size.width, size.height, light.channel_count());
   if (options.samples_per_pixel < kLanes) {
-    SampleBlocks(sampler, options.samples_per_pixel, size, film);
+    for (int row = 0; row < size.height; row += PixelSampler::kBlock) {
+      for (int column = 0; column < size.width; column += PixelSampler::kBlock) {
+        sampler.SampleBlock({column, row}, options.samples_per_pixel, film);
+      }
+    }
   } else {
     for (int row = 0; row < size.height; ++row) {
       for (int column = 0; column < size.width; ++column) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "renderers/fresnel.h"
+#include "renderers/lane_kernels.h"
 #include "renderers/wide.h"
 
 namespace fenestra {
@@ -72,8 +72,8 @@ float TracedScene::SurfaceOffset(const glm::vec3& viewer_W) const {
   return 64.0f * std::numeric_limits<float>::epsilon() * std::max(extent_m_, viewer_m);
 }
 
-float TracedScene::HitReflectance(const RayPacket& packet, int lane) const {
-  return PaneReflectance(HitCosine(packet, lane), refractive_index(packet.hit.primID[lane]));
+Lanes<float> TracedScene::ReflectancesHit(const LaneMask& panes, const RayPacket& packet) const {
+  return PaneReflectances(panes, packet, pane_index_.data());
 }
 
 // The mask is changed in place: GCC 12 does not always align the temporary that a 64-byte aligned
@@ -122,9 +122,10 @@ Lanes<float> TracedScene::Transmittance(const LaneMask& mask, RTCRay16& rays,
     std::fill_n(packet.hit.geomID, kLanes, RTC_INVALID_GEOMETRY_ID);
     pane_tracer_.Intersect(open, packet, coherence);
     if (!KeepPaneHits(packet, open)) break;
+    const Lanes<float> reflectance = ReflectancesHit(open, packet);
     for (int i = 0; i < kLanes; ++i) {
       if (open[i] == 0) continue;
-      passed[i] *= 1.0f - HitReflectance(packet, i);
+      passed[i] *= 1.0f - reflectance[i];
       packet.ray.tnear[i] = Beyond(packet.ray.tfar[i]);
       packet.ray.tfar[i] = rays.tfar[i];
     }

@@ -21,7 +21,6 @@ class TracedScene {
   const EmbreeScene& all_tracer() const { return all_tracer_; }
   const EmbreeScene& opaque_tracer() const { return opaque_tracer_; }
   bool has_panes() const { return !pane_tracer_.empty(); }
-  float refractive_index(uint32_t pane_triangle) const { return pane_index_[pane_triangle]; }
 
   /// How far [m] a ray must start off the surface of its origin so as not to hit it again: some
   /// fifty times the rounding error of positions as far out as the scene or the viewer.
@@ -43,8 +42,8 @@ class TracedScene {
   /// in the way, else the product of the transmittances of all panes. Destroys the rays.
   Lanes<float> Transmittance(const LaneMask& mask, RTCRay16& rays, Coherence coherence) const;
 
-  /// Of the pane that a lane has hit.
-  float HitReflectance(const RayPacket& packet, int lane) const;
+  /// Of the panes that lanes of the mask have hit; 0 in other lanes.
+  Lanes<float> ReflectancesHit(const LaneMask& panes, const RayPacket& packet) const;
 
  private:
   TriangleSoup opaque_;

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace fenestra::gltf {
+
+using Bytes = std::vector<uint8_t>;
+
+/// A number of a glTF file: little-endian and at any address. The caller has checked the bounds.
+template <typename T>
+T LoadLittleEndian(const uint8_t* at) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
+  T value;
+  std::memcpy(&value, at, sizeof(T));
+  return value;
+}
+
+/// How many bytes may still be read; shared by all files of an asset, since one small file can
+/// name a large one many times.
+class ByteBudget {
+ public:
+  explicit ByteBudget(size_t bytes) : limit_(bytes), left_(bytes) {}
+
+  /// False if there are not that many left.
+  [[nodiscard]] bool Take(size_t bytes) {
+    if (bytes > left_) return false;
+    left_ -= bytes;
+    return true;
+  }
+  size_t limit() const { return limit_; }
+
+ private:
+  size_t limit_;
+  size_t left_;
+};
+
+/// The whole of a regular file. Throws InputError for any other file, one that cannot be read and
+/// one beyond the budget.
+Bytes ReadWholeFile(const std::filesystem::path& file, ByteBudget& budget);
+
+}  // namespace fenestra::gltf

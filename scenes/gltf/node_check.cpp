@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scenes/gltf/structure_check.h"
+
+namespace fenestra::gltf {
+namespace {
+
+constexpr int kNone = -1;
+
+// Each node's parent. A node with two of them is a fault.
+std::vector<int> Parents(const tinygltf::Model& model, FaultList& faults) {
+  std::vector<int> parents(model.nodes.size(), kNone);
+  for (size_t i = 0; i < model.nodes.size(); ++i) {
+    for (size_t k = 0; k < model.nodes[i].children.size(); ++k) {
+      int& parent = parents[static_cast<size_t>(model.nodes[i].children[k])];
+      if (parent != kNone) {
+        faults.Add(fmt::format("/nodes/{}/children/{}", i, k),
+                   fmt::format("/nodes/{} is a child of /nodes/{} already",
+                               model.nodes[i].children[k], parent));
+      }
+      parent = static_cast<int>(i);
+    }
+  }
+  return parents;
+}
+
+// With one parent each, nodes that no root reaches stand in loops.
+std::vector<int> Roots(const tinygltf::Model& model, const std::vector<int>& parents,
+                       FaultList& faults) {
+  std::vector<int> roots(model.nodes.size(), kNone);
+  for (size_t i = 0; i < model.nodes.size(); ++i) {
+    if (parents[i] != kNone) continue;
+    std::vector<size_t> waiting = {i};
+    while (!waiting.empty()) {
+      const size_t node = waiting.back();
+      waiting.pop_back();
+      roots[node] = static_cast<int>(i);
+      for (const int child : model.nodes[node].children) {
+        // Only where a fault gave a node two parents has it been there before.
+        if (roots[static_cast<size_t>(child)] == kNone)
+          waiting.push_back(static_cast<size_t>(child));
+      }
+    }
+  }
+  for (size_t i = 0; i < roots.size(); ++i) {
+    if (roots[i] == kNone) faults.Add(fmt::format("/nodes/{}", i), "is its own ancestor");
+  }
+  return roots;
+}
+
+void CheckTransform(const nlohmann::json& node, const std::string& at, FaultList& faults) {
+  if (node.contains("matrix")) {
+    for (const char* name : {"translation", "rotation", "scale"}) {
+      if (node.contains(name)) faults.Add(at + "/" + name, "must not stand beside a matrix");
+    }
+    const auto m = node["matrix"].get<std::array<double, 16>>();
+    if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
+      faults.Add(at + "/matrix", "its last row must be 0, 0, 0, 1");
+    }
+  }
+  if (node.contains("rotation")) {
+    const auto q = node["rotation"].get<std::array<double, 4>>();
+    const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+    // Written with few digits it is off by some 1e-3; farther off it was never meant as a rotation.
+    if (!(std::abs(norm - 1.0) < 0.01)) {
+      faults.Add(at + "/rotation", fmt::format("must be a unit quaternion; its norm is {}", norm));
+    }
+  }
+}
+
+void CheckNode(const tinygltf::Model& model, const tinygltf::Node& node, const std::string& at,
+               FaultList& faults) {
+  if (node.mesh < 0) {
+    if (node.skin >= 0) faults.Add(at + "/skin", "a skin needs a mesh");
+    if (!node.weights.empty()) faults.Add(at + "/weights", "weights need a mesh");
+    return;
+  }
+  const tinygltf::Primitive& primitive =
+      model.meshes[static_cast<size_t>(node.mesh)].primitives.front();
+  if (!node.weights.empty() && node.weights.size() != primitive.targets.size()) {
+    faults.Add(at + "/weights", fmt::format("{} weights for {} morph targets", node.weights.size(),
+                                            primitive.targets.size()));
+  }
+}
+
+void CheckScene(const tinygltf::Model& model, const tinygltf::Scene& scene,
+                const std::vector<int>& parents, const std::vector<int>& roots,
+                const std::string& at, FaultList& faults) {
+  std::vector<bool> is_here(model.nodes.size(), false);
+  for (size_t k = 0; k < scene.nodes.size(); ++k) {
+    const auto node = static_cast<size_t>(scene.nodes[k]);
+    is_here[node] = true;
+    if (parents[node] == kNone) continue;
+    faults.Add(
+        fmt::format("{}/nodes/{}", at, k),
+        fmt::format("/nodes/{} is a child of /nodes/{}; scenes name roots", node, parents[node]));
+  }
+  const auto in_scene = [&](size_t node) {
+    return roots[node] != kNone && is_here[static_cast<size_t>(roots[node])];
+  };
+  for (size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].skin < 0 || !in_scene(i)) continue;
+    const auto& joints = model.skins[static_cast<size_t>(model.nodes[i].skin)].joints;
+    if (std::ranges::all_of(joints, [&](int j) { return in_scene(static_cast<size_t>(j)); }))
+      continue;
+    faults.Add(fmt::format("/nodes/{}/skin", i), fmt::format("its joints are not in {}", at));
+  }
+}
+
+}  // namespace
+
+void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, FaultList& faults) {
+  const std::vector<int> parents = Parents(model, faults);
+  const std::vector<int> roots = Roots(model, parents, faults);
+  for (size_t i = 0; i < model.nodes.size(); ++i) {
+    const std::string at = fmt::format("/nodes/{}", i);
+    CheckTransform(root["nodes"][i], at, faults);
+    CheckNode(model, model.nodes[i], at, faults);
+  }
+  for (size_t i = 0; i < model.scenes.size(); ++i) {
+    CheckScene(model, model.scenes[i], parents, roots, fmt::format("/scenes/{}", i), faults);
+  }
+}
+
+void CheckSkins(const tinygltf::Model& model, FaultList& faults) {
+  for (size_t i = 0; i < model.skins.size(); ++i) {
+    const tinygltf::Skin& skin = model.skins[i];
+    if (skin.inverseBindMatrices < 0) continue;
+    const auto& accessor = model.accessors[static_cast<size_t>(skin.inverseBindMatrices)];
+    const std::string at = fmt::format("/skins/{}/inverseBindMatrices", i);
+    if (accessor.type != TINYGLTF_TYPE_MAT4 ||
+        accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
+      faults.Add(at, fmt::format("/accessors/{} must be 4x4 matrices of floats",
+                                 skin.inverseBindMatrices));
+    }
+    if (accessor.count < skin.joints.size()) {
+      faults.Add(at, fmt::format("{} matrices for {} joints", accessor.count, skin.joints.size()));
+    }
+  }
+}
+
+}  // namespace fenestra::gltf
