@@ -85,8 +85,8 @@ WallPattern Brick(const RandomStream& random) {
   constexpr double kGrain = 0.12;
   std::array<float, kCourses * kBricksOfCourse> shades{};
   random.Child("shades").FillNormals(shades);
-  // Edges of bricks are not straight: they wander by a millimetre or two.
-  const cv::Mat1f wander = 0.0012 * Noise(128, random.Child("wander"));
+  // Edges of bricks are not straight: they wander by about a millimetre.
+  const cv::Mat1f wander = 0.0008 * Noise(128, random.Child("wander"));
   WallPattern brick{cv::Mat1f(kSide_px, kSide_px), cv::Mat1f(kSide_px, kSide_px)};
   for (int v = 0; v < kSide_px; ++v) {
     const double y_m = (v + 0.5) * kTexel_m;

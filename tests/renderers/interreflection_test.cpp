@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-const SolidLattice::Solid kShell = 1;
+const Solid kShell = 1;
 
 // A room of 2 m x 2 m x 2 m around the origin, closed on all sides.
 Scene ClosedRoom(float reflectance, float emission) {
