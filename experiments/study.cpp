@@ -113,6 +113,15 @@ std::vector<Cell> Cells(const Study& study) {
   return cells;
 }
 
+Cell CellOf(const Study& study, int index) {
+  std::vector<Cell> cells = Cells(study);
+  if (index < 0 || index >= static_cast<int>(cells.size())) {
+    throw InputError("--cell", fmt::format("{} is not a cell of '{}': 0 to {}", index, study.name,
+                                           cells.size() - 1));
+  }
+  return std::move(cells[static_cast<size_t>(index)]);
+}
+
 int64_t CountCells(const Study& study) {
   int64_t count = 0;
   for (const StudyPart& part : study.parts) count = SaturatedSum(count, CountCells(part));
