@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/check.h"
+#include "core/input_error.h"
 
 namespace fenestra {
 namespace {
