@@ -110,16 +110,16 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
   return {std::move(record), std::move(log)};
 }
 
-AovImages CellBench::TruthImages(const SimulatedTrial& simulated) const {
+TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {
   const TrialSettings& settings = simulated.trial.settings;
   const auto world = WorldOf(settings);
   const auto sensor = SensorOf(settings);
   const Pose X_WB = RigPoseOf(settings, world->scene);
   if (const auto* rig = std::get_if<StereoRig>(sensor.get())) {
     const StereoRig::TrueState state = rig->Draw(simulated.trial.stream.Child("rig"));
-    return rig->LeftAovs(world->caster, settings.lighting, X_WB, state);
+    return rig->LeftTruth(world->caster, settings.lighting, X_WB, state);
   }
-  return std::get<StructuredLightSensor>(*sensor).DepthAovs(world->caster, settings.lighting, X_WB);
+  return std::get<StructuredLightSensor>(*sensor).DepthTruth(world->caster, settings.lighting, X_WB);
 }
 
 }  // namespace fenestra

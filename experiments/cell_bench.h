@@ -50,7 +50,7 @@ class CellBench {
   Attempt Try(size_t detector, const SimulatedTrial& simulated, bool keep_artifacts) const;
 
   /// Per-pixel truth of the left (stereo) or depth camera.
-  AovImages TruthImages(const SimulatedTrial& simulated) const;
+  TruthImages TruthOf(const SimulatedTrial& simulated) const;
 
  private:
   /// A scene and its ray tracing structures; fixed in memory.

@@ -10,7 +10,7 @@
 #include "experiments/geometry_json.h"
 #include "experiments/pcd.h"
 #include "experiments/trial_drawing.h"
-#include "renderers/exr_io.h"
+#include "experiments/truth_exr.h"
 
 namespace fenestra {
 namespace {
@@ -46,33 +46,6 @@ cv::Mat1f ToMetres(const DepthImage& depth) {
 const CameraModel& ScoredCamera(const SensorCalibration& calibration) {
   const auto* stereo = std::get_if<StereoCalibration>(&calibration);
   return stereo != nullptr ? stereo->left : std::get<RgbdCalibration>(calibration).depth;
-}
-
-cv::Mat1f AsFloat(const cv::Mat& image, double scale = 1.0) {
-  cv::Mat1f converted;
-  image.convertTo(converted, CV_32F, scale);
-  return converted;
-}
-
-void WriteTruthExr(const std::filesystem::path& file, const AovImages& aovs) {
-  std::array<cv::Mat1f, 3> normal;
-  cv::split(aovs.normal_C, normal.data());
-  std::vector<ExrChannel> channels = {{"depth_m", aovs.depth_m},
-                                      {"normal.x", normal[0]},
-                                      {"normal.y", normal[1]},
-                                      {"normal.z", normal[2]},
-                                      {"object", AsFloat(aovs.object_id)},
-                                      {"sees_sun", AsFloat(aovs.sees_sun, 1.0 / 255.0)},
-                                      {"transmittance", aovs.transmittance},
-                                      {"irradiance_830", aovs.irradiance_830},
-                                      {"reflectance_830nm", aovs.reflectance_830nm}};
-  if (!aovs.sees_point.empty()) {
-    channels.push_back({"sees_projector", AsFloat(aovs.sees_point, 1.0 / 255.0)});
-  }
-  WriteExr(file, channels,
-           {{"depth_m", "along the optical axis [m]; NaN: nothing hit"},
-            {"normal", "in the camera frame: +x right, +y down, +z forward"},
-            {"irradiance_830", "ambient, on the surface [W/(m^2 nm)]"}});
 }
 
 std::string FactorYaml(const TrialSettings& settings) {
@@ -156,11 +129,11 @@ void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench
     WriteFileAtomically(folder / "cloud.pcd", ToPcd(CloudOf(ToMetres(rgbd->depth), camera)));
   }
   const std::filesystem::path truth = folder / "truth";
-  const AovImages aovs = bench.TruthImages(simulated);
+  const TruthImages images = bench.TruthOf(simulated);
+  const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
   WriteFileAtomically(truth / "truth.json", TruthJson(simulated));
-  WriteTruthExr(truth / "truth.exr", aovs);
-  WriteFileAtomically(truth / "cloud.pcd",
-                      ToPcd(CloudOf(aovs.depth_m, ScoredCamera(simulated.calibration))));
+  WriteTruthExr(truth / "truth.exr", images, stereo ? "right" : "projector");
+  WriteFileAtomically(truth / "cloud.pcd", ToPcd(CloudOf(images.aovs.depth_m, images.camera)));
   WriteFileAtomically(truth / "trial.yaml", FactorYaml(simulated.trial.settings));
 }
 

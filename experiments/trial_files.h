@@ -30,7 +30,7 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 /// and into the folder `truth` what no detector may see:
 ///
 ///     truth.json    poses and the window's centroid, corners and normal in the scored camera
-///     truth.exr     per pixel: depth, normal, object, visibility (AovImages)
+///     truth.exr     per pixel: radiance, depth, normal, ids, light, visibility, disparity
 ///     cloud.pcd     the true surface in the scored camera's frame
 ///     trial.yaml    every factor's value in this trial
 void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench,

@@ -37,10 +37,12 @@ AovImages MakeImages(const cv::Size& size, bool with_point) {
   images.depth_m = cv::Mat1f(size, std::numeric_limits<float>::quiet_NaN());
   images.normal_C = cv::Mat3f(size, cv::Vec3f(0.0f, 0.0f, 0.0f));
   images.object_id = cv::Mat1i(size, -1);
+  images.material_id = cv::Mat1i(size, -1);
   images.sees_sun = cv::Mat1b(size, uchar{0});
   if (with_point) images.sees_point = cv::Mat1b(size, uchar{0});
   images.transmittance = cv::Mat1f(size, 1.0f);
   images.reflectance_830nm = cv::Mat1f(size, 0.0f);
+  images.irradiance_lx = cv::Mat1f(size, 0.0f);
   images.irradiance_830 = cv::Mat1f(size, 0.0f);
   return images;
 }
@@ -62,14 +64,14 @@ Eigen::Vector2f ImagePointAt(const RayGrid& rays, float u_px, float v_px) {
 
 class AovCaster {
  public:
-  AovCaster(const LightTransport::Surfaces& surfaces, const RayGrid& rays, const Pose& X_WC,
-            const Lighting& lighting, const AovOptions& options)
-      : surfaces_(surfaces),
+  AovCaster(const Scene& scene, const TracedScene& traced, const LightTransport& light,
+            const RayGrid& rays, const Pose& X_WC, const AovOptions& options)
+      : scene_(scene),
+        traced_(traced),
+        light_(light),
         rays_(rays),
         X_WC_(X_WC),
         camera_(ToFloat(X_WC)),
-        light_(surfaces, lighting, {Channel::kIlluminance}, camera_.p_WC),
-        irradiance_830_per_lux_(static_cast<float>(lighting.irradiance_830_per_lux)),
         options_(options),
         images_(MakeImages({rays.width_px(), rays.height_px()}, options.p_WP.has_value())) {}
 
@@ -88,15 +90,14 @@ class AovCaster {
     RayPacket packet;
     SetRays(packet, camera_.p_WC, DirectionsAt(row, first_column, count));
     const LightTransport::Ends ends = light_.TraceOpaque(mask, packet);
-    const Lanes<float> through_panes =
-        surfaces_.traced.PaneTransmittance(mask, packet.ray, Coherence::kCoherent);
     for (int i = 0; i < count; ++i) {
       const int column = first_column + i;
-      images_.transmittance(row, column) = through_panes[i];
+      images_.transmittance(row, column) = ends.transmittance[i];
       if (packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
       Describe(packet, i, row, column);
       images_.sees_sun(row, column) = ends.sun[i] > 0.0f ? 255 : 0;
-      images_.irradiance_830(row, column) = ends.radiance[0][i] * irradiance_830_per_lux_;
+      images_.irradiance_lx(row, column) = ends.radiance[0][i];
+      images_.irradiance_830(row, column) = ends.radiance[1][i];
     }
     if (options_.p_WP) LookAtPoint(packet, row, first_column, count);
   }
@@ -118,7 +119,7 @@ class AovCaster {
   // Depth is found anew from the triangle's plane, since the ray tracer's is good for finding the
   // nearest surface but has an error of some 1e-6.
   void Describe(const RayPacket& packet, int lane, int row, int column) {
-    const TriangleSoup& soup = surfaces_.traced.opaque();
+    const TriangleSoup& soup = traced_.opaque();
     const uint32_t triangle = packet.hit.primID[lane];
     const glm::vec3& n = soup.normals_W[triangle];
     const glm::vec3& a = soup.positions_W[soup.triangles[triangle].x];
@@ -136,14 +137,24 @@ class AovCaster {
                   static_cast<float>(normal_C.z()));
     const uint32_t mesh = soup.mesh_of[triangle];
     images_.object_id(row, column) = static_cast<int>(mesh);
+    const uint32_t material = scene_.meshes[mesh].material;
+    images_.material_id(row, column) = static_cast<int>(material);
     images_.reflectance_830nm(row, column) =
-        surfaces_.scene.materials[surfaces_.scene.meshes[mesh].material].reflectance_830nm;
+        scene_.materials[material].reflectance_830nm * PatternAt830(packet, lane);
+  }
+
+  // What the surface's pattern does at 830 nm, at the very point.
+  float PatternAt830(const RayPacket& packet, int lane) const {
+    const SurfacePatterns& patterns = traced_.patterns();
+    const uint32_t triangle = packet.hit.primID[lane];
+    if (!patterns.has_pattern(triangle)) return 1.0f;
+    return PatternSpectrum(patterns.At(triangle, packet.hit.u[lane], packet.hit.v[lane], 0.0f)).w;
   }
 
   void LookAtPoint(const RayPacket& packet, int row, int first_column, int count) {
     const Eigen::Vector3f p_WP = options_.p_WP->cast<float>();
-    RTCRay16 to_point = RaysFromHits(
-        packet, surfaces_.traced.SurfaceOffset({p_WP.x(), p_WP.y(), p_WP.z()}), glm::vec3(0.0f));
+    RTCRay16 to_point = RaysFromHits(packet, traced_.SurfaceOffset({p_WP.x(), p_WP.y(), p_WP.z()}),
+                                     glm::vec3(0.0f));
     const RTCHit16& hit = packet.hit;
     LaneMask mask;
     for (int i = 0; i < count; ++i) {
@@ -161,29 +172,29 @@ class AovCaster {
       to_point.dir_z[i] = dz;
       to_point.tfar[i] = 1.0f;
     }
-    surfaces_.traced.opaque_tracer().Occlude(mask, to_point, Coherence::kCoherent);
+    traced_.opaque_tracer().Occlude(mask, to_point, Coherence::kCoherent);
     for (int i = 0; i < count; ++i) {
       const bool sees = mask[i] != 0 && to_point.tfar[i] > 0.0f;
       images_.sees_point(row, first_column + i) = sees ? 255 : 0;
     }
   }
 
-  const LightTransport::Surfaces& surfaces_;
+  const Scene& scene_;
+  const TracedScene& traced_;
+  const LightTransport& light_;
   const RayGrid& rays_;
   const Pose& X_WC_;
   FloatPose camera_;
-  LightTransport light_;
-  float irradiance_830_per_lux_;
   const AovOptions& options_;
   AovImages images_;
 };
 
 }  // namespace
 
-AovImages CastAovImages(const LightTransport::Surfaces& surfaces, const RayGrid& rays,
-                        const Pose& X_WC, const Lighting& lighting, const AovOptions& options) {
+AovImages CastAovImages(const Scene& scene, const TracedScene& traced, const LightTransport& light,
+                        const RayGrid& rays, const Pose& X_WC, const AovOptions& options) {
   Check(options, {rays.width_px(), rays.height_px()});
-  return AovCaster(surfaces, rays, X_WC, lighting, options).Cast();
+  return AovCaster(scene, traced, light, rays, X_WC, options).Cast();
 }
 
 }  // namespace fenestra

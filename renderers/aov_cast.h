@@ -6,9 +6,9 @@
 
 namespace fenestra {
 
-/// Per-pixel truth; see AovImages. Throws InputError if the offsets' size is not the image's or an
-/// offset is outside [-64, 64] px.
-AovImages CastAovImages(const LightTransport::Surfaces& surfaces, const RayGrid& rays,
-                        const Pose& X_WC, const Lighting& lighting, const AovOptions& options);
+/// Per-pixel truth; see AovImages. `light` has the channels kIlluminance and kIrradiance830. Throws
+/// InputError if the offsets' size is not the image's or an offset is outside [-64, 64] px.
+AovImages CastAovImages(const Scene& scene, const TracedScene& traced, const LightTransport& light,
+                        const RayGrid& rays, const Pose& X_WC, const AovOptions& options);
 
 }  // namespace fenestra

@@ -15,24 +15,12 @@ EmbreeDevice::~EmbreeDevice() {
   rtcReleaseDevice(device_);
 }
 
-EmbreeScene::EmbreeScene(const EmbreeDevice& device, const TriangleSoup& soup)
-    : scene_(rtcNewScene(device.get())), empty_(soup.triangles.empty()) {
+EmbreeScene::EmbreeScene(const EmbreeDevice& device, std::span<const Part> parts,
+                         const SurfacePatterns& patterns)
+    : scene_(rtcNewScene(device.get())), hole_test_{&patterns, 0} {
   rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-  if (!empty_) {
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-    static_assert(sizeof(glm::uvec3) == 3 * sizeof(unsigned));
-    void* positions =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                sizeof(glm::vec3), soup.positions_W.size());
-    void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                              sizeof(glm::uvec3), soup.triangles.size());
-    FENESTRA_CHECK(positions != nullptr && triangles != nullptr, "Embree is out of memory");
-    std::memcpy(positions, soup.positions_W.data(), soup.positions_W.size() * sizeof(glm::vec3));
-    std::memcpy(triangles, soup.triangles.data(), soup.triangles.size() * sizeof(glm::uvec3));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+  for (const Part& part : parts) {
+    if (part.count > 0) Attach(device, part);
   }
   rtcCommitScene(scene_);
   const RTCError error = rtcGetDeviceError(device.get());
@@ -41,6 +29,44 @@ EmbreeScene::EmbreeScene(const EmbreeDevice& device, const TriangleSoup& soup)
 
 EmbreeScene::~EmbreeScene() {
   rtcReleaseScene(scene_);
+}
+
+void EmbreeScene::Attach(const EmbreeDevice& device, const Part& part) {
+  empty_ = false;
+  const TriangleSoup& soup = part.soup;
+  RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+  static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
+  static_assert(sizeof(glm::uvec3) == 3 * sizeof(unsigned));
+  void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                            sizeof(glm::vec3), soup.positions_W.size());
+  void* triangles = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof(glm::uvec3), part.count);
+  FENESTRA_CHECK(positions != nullptr && triangles != nullptr, "Embree is out of memory");
+  std::memcpy(positions, soup.positions_W.data(), soup.positions_W.size() * sizeof(glm::vec3));
+  std::memcpy(triangles, &soup.triangles[part.first], part.count * sizeof(glm::uvec3));
+  if (part.id == kHoledGeometry) {
+    holed_first_ = static_cast<uint32_t>(part.first);
+    hole_test_.first = holed_first_;
+    rtcSetGeometryUserData(geometry, &hole_test_);
+    rtcSetGeometryIntersectFilterFunction(geometry, PassHoles);
+    rtcSetGeometryOccludedFilterFunction(geometry, PassHoles);
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(scene_, geometry, part.id);
+  rtcReleaseGeometry(geometry);
+}
+
+void EmbreeScene::PassHoles(const RTCFilterFunctionNArguments* arguments) {
+  const auto& test = *static_cast<const HoleTest*>(arguments->geometryUserPtr);
+  const unsigned n = arguments->N;
+  for (unsigned i = 0; i < n; ++i) {
+    if (arguments->valid[i] == 0) continue;
+    const uint32_t triangle = test.first + RTCHitN_primID(arguments->hit, n, i);
+    if (test.patterns->IsHole(triangle, RTCHitN_u(arguments->hit, n, i),
+                              RTCHitN_v(arguments->hit, n, i))) {
+      arguments->valid[i] = 0;
+    }
+  }
 }
 
 }  // namespace fenestra

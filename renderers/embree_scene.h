@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
+
 #include "renderers/packet.h"
+#include "renderers/surface_patterns.h"
 #include "renderers/triangle_soup.h"
 
 namespace fenestra {
@@ -23,11 +26,24 @@ class EmbreeDevice {
 /// How alike the rays of a packet are: only a hint for speed.
 enum class Coherence { kCoherent, kIncoherent };
 
-/// The ray tracing structure of a triangle soup. A hit's primID is the triangle's index in the
-/// soup. Watertight: a ray never slips through the edge that two triangles share.
+/// What a hit's geomID says.
+enum GeometryId : unsigned { kOpaqueGeometry = 0, kHoledGeometry = 1, kPaneGeometry = 2 };
+
+/// The ray tracing structure of triangles. A hit's primID is the triangle's index in its soup. Rays
+/// pass holes. Watertight: a ray never slips through the edge that two triangles share.
 class EmbreeScene {
  public:
-  EmbreeScene(const EmbreeDevice& device, const TriangleSoup& soup);
+  /// Triangles [first, first + count) of a soup.
+  struct Part {
+    const TriangleSoup& soup;
+    GeometryId id;
+    size_t first;
+    size_t count;
+  };
+
+  /// `patterns` belongs to the soup of the part with holes, and must outlive the scene.
+  EmbreeScene(const EmbreeDevice& device, std::span<const Part> parts,
+              const SurfacePatterns& patterns);
   ~EmbreeScene();
   EmbreeScene(const EmbreeScene&) = delete;
   EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -38,6 +54,12 @@ class EmbreeScene {
   void Intersect(const LaneMask& mask, RayPacket& packet, Coherence coherence) const {
     RTCIntersectContext context = Context(coherence);
     rtcIntersect16(mask.data(), scene_, &context, &packet);
+    if (holed_first_ == 0) return;
+    for (int i = 0; i < kLanes; ++i) {
+      if (mask[i] != 0 && packet.hit.geomID[i] == kHoledGeometry) {
+        packet.hit.primID[i] += holed_first_;
+      }
+    }
   }
 
   /// Sets tfar to minus infinity in each lane of the mask that hits anything before its tfar.
@@ -47,6 +69,12 @@ class EmbreeScene {
   }
 
  private:
+  // What Embree hands to the filter of a geometry with holes.
+  struct HoleTest {
+    const SurfacePatterns* patterns;
+    uint32_t first;
+  };
+
   static RTCIntersectContext Context(Coherence coherence) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -54,9 +82,13 @@ class EmbreeScene {
                                                       : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     return context;
   }
+  static void PassHoles(const RTCFilterFunctionNArguments* arguments);
+  void Attach(const EmbreeDevice& device, const Part& part);
 
   RTCScene scene_;
-  bool empty_;
+  bool empty_ = true;
+  uint32_t holed_first_ = 0;
+  HoleTest hole_test_;
 };
 
 }  // namespace fenestra

@@ -17,12 +17,6 @@ Film::Film(int width_px, int height_px, int channels)
       keys_(height_px, width_px),
       channels_(channels) {}
 
-void Film::Set(Pixel pixel, const PixelResult& result) {
-  float* out = radiance_.ptr<float>(pixel.row) + pixel.column * channels_;
-  for (int c = 0; c < channels_; ++c) out[c] = result.radiance[static_cast<size_t>(c)];
-  keys_(pixel.row, pixel.column) = static_cast<int>(result.key);
-}
-
 cv::Mat1b Film::Edges() const {
   const int mixed = static_cast<int>(kMixed);
   cv::Mat1b meets(keys_.size(), uchar{0});

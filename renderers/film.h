@@ -27,7 +27,19 @@ class Film {
 
   Film(int width_px, int height_px, int channels);
 
-  void Set(Pixel pixel, const PixelResult& result);
+  void Set(Pixel pixel, const PixelResult& result) {
+    float* out = radiance_.ptr<float>(pixel.row) + pixel.column * channels_;
+    for (int c = 0; c < channels_; ++c) out[c] = result.radiance[static_cast<size_t>(c)];
+    keys_(pixel.row, pixel.column) = static_cast<int>(result.key);
+  }
+
+  PixelResult At(Pixel pixel) const {
+    PixelResult result;
+    const float* in = radiance_.ptr<float>(pixel.row) + pixel.column * channels_;
+    for (int c = 0; c < channels_; ++c) result.radiance[static_cast<size_t>(c)] = in[c];
+    result.key = static_cast<uint32_t>(keys_(pixel.row, pixel.column));
+    return result;
+  }
 
   /// 255 where a pixel or one of its eight neighbours is mixed, or a neighbour has seen something
   /// else: since samples may miss a corner that an edge cuts off, both sides of it count.

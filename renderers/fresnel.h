@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 
 namespace fenestra {
@@ -21,7 +20,9 @@ inline float FresnelReflectance(float c, float n) {
 /// Averaging the polarisations before summing the series overstates R at the Brewster angle by
 /// less than 0.01.
 inline float PaneReflectance(float c, float n) {
-  const float F = FresnelReflectance(std::clamp(c, 1e-4f, 1.0f), n);
+  // Written out, since a clamp is a function call to a vectoriser.
+  const float c_up = c > 1e-4f ? c : 1e-4f;
+  const float F = FresnelReflectance(c_up < 1.0f ? c_up : 1.0f, n);
   return 2.0f * F / (1.0f + F);
 }
 

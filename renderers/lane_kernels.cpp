@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "renderers/fresnel.h"
 #include "renderers/net_samples.h"
 #include "renderers/wide.h"
 
@@ -31,17 +32,45 @@ FENESTRA_WIDE Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x,
   return d;
 }
 
-FENESTRA_WIDE ImagePoints SamplePatch(const PixelPatch& patch, const uint32_t* net_x,
-                                      const uint32_t* net_y, uint32_t scramble_x,
-                                      uint32_t scramble_y) {
-  ImagePoints points;
+FENESTRA_WIDE PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x,
+                                          const Lanes<uint32_t>& net_y,
+                                          const Lanes<uint32_t>& seed_x,
+                                          const Lanes<uint32_t>& seed_y) {
+  PixelPoints points;
   for (int i = 0; i < kLanes; ++i) {
-    const float s = ToUnit(OwenScrambled(net_x[i], scramble_x));
-    const float t = ToUnit(OwenScrambled(net_y[i], scramble_y));
-    points.x[i] = patch.x0 + s * patch.xs + t * (patch.xt + s * patch.xst);
-    points.y[i] = patch.y0 + s * patch.ys + t * (patch.yt + s * patch.yst);
+    points.s[i] = ToUnit(OwenScrambled(net_x[i], seed_x[i]));
+    points.t[i] = ToUnit(OwenScrambled(net_y[i], seed_y[i]));
   }
   return points;
+}
+
+FENESTRA_WIDE PixelPatches PatchesOf(const float* corner_data, const Lanes<uint32_t>& corner,
+                                     uint32_t stride) {
+  PixelPatches p;
+  for (int i = 0; i < kLanes; ++i) {
+    const float* top = corner_data + 2 * corner[i];
+    const float* low = top + 2 * stride;
+    p.x0[i] = top[0];
+    p.xs[i] = top[2] - top[0];
+    p.xt[i] = low[0] - top[0];
+    p.xst[i] = (low[2] - low[0]) - (top[2] - top[0]);
+    p.y0[i] = top[1];
+    p.ys[i] = top[3] - top[1];
+    p.yt[i] = low[1] - top[1];
+    p.yst[i] = (low[3] - low[1]) - (top[3] - top[1]);
+  }
+  return p;
+}
+
+FENESTRA_WIDE ImagePoints InPixels(const PixelPatches& p, const PixelPoints& points) {
+  ImagePoints out;
+  for (int i = 0; i < kLanes; ++i) {
+    const float s = points.s[i];
+    const float t = points.t[i];
+    out.x[i] = p.x0[i] + s * p.xs[i] + t * (p.xt[i] + s * p.xst[i]);
+    out.y[i] = p.y0[i] + s * p.ys[i] + t * (p.yt[i] + s * p.yst[i]);
+  }
+  return out;
 }
 
 FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count) {
@@ -58,13 +87,24 @@ FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangl
   return side;
 }
 
-FENESTRA_WIDE LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
-                                     const RayPacket& packet) {
-  LaneLight light;
+FENESTRA_WIDE Lanes<float> AmbientLeaving(const SideRadiance* sides,
+                                          const Lanes<uint32_t>& side_hit,
+                                          const RayPacket& packet) {
+  Lanes<float> light;
   for (int i = 0; i < kLanes; ++i) {
     const SideRadiance& side = sides[side_hit[i]];
-    light.sky[i] = side.sky + side.sky_u * packet.hit.u[i] + side.sky_v * packet.hit.v[i];
-    light.sun[i] = side.sun;
+    light[i] = side.ambient + side.ambient_u * packet.hit.u[i] + side.ambient_v * packet.hit.v[i];
+  }
+  return light;
+}
+
+FENESTRA_WIDE Lanes<float> SunLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
+                                      const RayPacket& packet) {
+  Lanes<float> light;
+  for (int i = 0; i < kLanes; ++i) {
+    const SideRadiance& side = sides[side_hit[i]];
+    const float sun = side.sun + side.sun_u * packet.hit.u[i] + side.sun_v * packet.hit.v[i];
+    light[i] = sun > 0.0f ? sun : 0.0f;
   }
   return light;
 }
@@ -93,6 +133,71 @@ FENESTRA_WIDE RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m,
     out.mask[i] = ~0u;
     out.id[i] = 0u;
     out.flags[i] = 0u;
+  }
+  return out;
+}
+
+FENESTRA_WIDE Lanes<float> PaneReflectances(const LaneMask& panes, const RayPacket& packet,
+                                            const float* index) {
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  Lanes<float> reflectance;
+  for (int i = 0; i < kLanes; ++i) {
+    const bool on = panes[i] != 0;
+    const float nx = hit.Ng_x[i];
+    const float ny = hit.Ng_y[i];
+    const float nz = hit.Ng_z[i];
+    const float dx = ray.dir_x[i];
+    const float dy = ray.dir_y[i];
+    const float dz = ray.dir_z[i];
+    const float nn = nx * nx + ny * ny + nz * nz;
+    const float dd = dx * dx + dy * dy + dz * dz;
+    const float nd = nx * dx + ny * dy + nz * dz;
+    const float cosine = (nd < 0.0f ? -nd : nd) / std::sqrt(nn * dd);
+    const float R = PaneReflectance(cosine, index[on ? hit.primID[i] : 0u]);
+    reflectance[i] = on ? R : 0.0f;
+  }
+  return reflectance;
+}
+
+FENESTRA_WIDE RayPacket MirroredRays(const LaneMask& panes, const RayPacket& packet,
+                                     float offset_m) {
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  RayPacket out;
+  for (int i = 0; i < kLanes; ++i) {
+    const bool on = panes[i] != 0;
+    const float nx = hit.Ng_x[i];
+    const float ny = hit.Ng_y[i];
+    const float nz = hit.Ng_z[i];
+    const float dx = ray.dir_x[i];
+    const float dy = ray.dir_y[i];
+    const float dz = ray.dir_z[i];
+    const float nn = nx * nx + ny * ny + nz * nz;
+    const float nd = nx * dx + ny * dy + nz * dz;
+    const float twice = 2.0f * nd / nn;
+    const float unit = offset_m / std::sqrt(nn);
+    const float off = nd < 0.0f ? unit : -unit;
+    out.ray.org_x[i] = ray.org_x[i] + ray.tfar[i] * dx + off * nx;
+    out.ray.org_y[i] = ray.org_y[i] + ray.tfar[i] * dy + off * ny;
+    out.ray.org_z[i] = ray.org_z[i] + ray.tfar[i] * dz + off * nz;
+    out.ray.tnear[i] = 0.0f;
+    out.ray.dir_x[i] = on ? dx - twice * nx : 0.0f;
+    out.ray.dir_y[i] = on ? dy - twice * ny : 0.0f;
+    out.ray.dir_z[i] = on ? dz - twice * nz : 0.0f;
+    out.ray.time[i] = 0.0f;
+    out.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    out.ray.mask[i] = ~0u;
+    out.ray.id[i] = 0u;
+    out.ray.flags[i] = 0u;
+    out.hit.Ng_x[i] = 0.0f;
+    out.hit.Ng_y[i] = -1.0f;
+    out.hit.Ng_z[i] = 0.0f;
+    out.hit.u[i] = 0.0f;
+    out.hit.v[i] = 0.0f;
+    out.hit.primID[i] = RTC_INVALID_GEOMETRY_ID;
+    out.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    out.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   return out;
 }

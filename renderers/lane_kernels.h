@@ -3,18 +3,12 @@
 #include <array>
 
 #include "renderers/lit_surfaces.h"
+#include "renderers/net_samples.h"
 #include "renderers/packet.h"
 
 namespace fenestra {
 
 /// The loops over lanes that every ray goes through, compiled for the widest vectors at hand.
-
-/// Bilinear interpolation of a pixel's corner rays, in normalised image coordinates and per lane:
-/// (x, y) = c00 + s (c10 − c00) + t (c01 − c00) + s t (c00 − c10 − c01 + c11).
-struct PixelPatch {
-  float x0, xs, xt, xst;
-  float y0, ys, yt, yst;
-};
 
 /// Columns of R_WC in single precision.
 struct CameraAxes {
@@ -35,29 +29,55 @@ FloatPose ToFloat(const Pose& X_WC);
 /// axis.
 Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x, const Lanes<float>& y);
 
-/// The image coordinates of sixteen samples (s, t) in [0, 1)² of one pixel: scrambled points from
-/// kNetTable.
+/// Places in an image, as normalised image coordinates.
 struct ImagePoints {
   Lanes<float> x;
   Lanes<float> y;
 };
-ImagePoints SamplePatch(const PixelPatch& patch, const uint32_t* net_x, const uint32_t* net_y,
-                        uint32_t scramble_x, uint32_t scramble_y);
+
+/// Places (s, t) in [0, 1]² within pixels, from their top left corners.
+struct PixelPoints {
+  Lanes<float> s;
+  Lanes<float> t;
+};
+
+/// Net points (see NetTable) scrambled with each lane's seeds.
+PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x, const Lanes<uint32_t>& net_y,
+                            const Lanes<uint32_t>& seed_x, const Lanes<uint32_t>& seed_y);
+
+/// Bilinear interpolation between the corner rays of each lane's pixel:
+/// (x, y) = c00 + s (c10 − c00) + t (c01 − c00) + s t (c00 − c10 − c01 + c11).
+struct PixelPatches {
+  Lanes<float> x0, xs, xt, xst;
+  Lanes<float> y0, ys, yt, yst;
+};
+
+/// `corner` is the index of the pixel's top left corner in RayGrid::corner_data(), `stride` the
+/// corners in a row.
+PixelPatches PatchesOf(const float* corner_data, const Lanes<uint32_t>& corner, uint32_t stride);
+
+ImagePoints InPixels(const PixelPatches& patches, const PixelPoints& points);
 
 /// The side that each lane hit, or the sky or the ground: an index into SideRadiance tables.
 Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count);
 
-/// The two parts of the light that leaves each hit.
-struct LaneLight {
-  Lanes<float> sky;
-  Lanes<float> sun;  ///< If the sun reaches the hit.
-};
-LaneLight LightLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
-                       const RayPacket& packet);
+/// The light that leaves each hit, without the sun's, and the sun's if it reaches the hit.
+Lanes<float> AmbientLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
+                            const RayPacket& packet);
+Lanes<float> SunLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
+                        const RayPacket& packet);
 
 /// Rays from all hits towards a distant light, starting `offset_m` off the surface on the side
 /// that the packet's rays came from.
 RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m, const glm::vec3& direction_W);
+
+/// Reflectances of the panes that lanes of the mask have hit, 0 in other lanes; `index` is the
+/// refractive index of each triangle.
+Lanes<float> PaneReflectances(const LaneMask& panes, const RayPacket& packet, const float* index);
+
+/// Rays mirrored where lanes of the mask have hit panes, starting `offset_m` before them; other
+/// lanes have no direction.
+RayPacket MirroredRays(const LaneMask& panes, const RayPacket& packet, float offset_m);
 
 /// table[index[i]] of each lane.
 Lanes<uint32_t> LookUp(const uint32_t* table, const Lanes<uint32_t>& index);

@@ -7,81 +7,69 @@
 namespace fenestra {
 namespace {
 
-// Rec. ITU-R BT.709, luminance of linear red, green and blue.
-constexpr float kRedLuminance = 0.2126f;
-constexpr float kGreenLuminance = 0.7152f;
-constexpr float kBlueLuminance = 0.0722f;
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// What the sun gives at the corners of a side: the cosines to it, 0 if it stands behind the side.
+glm::vec3 SunCosines(const TriangleSoup& soup, size_t triangle, bool front,
+                     const glm::vec3& to_sun_W) {
+  const float sign = front ? 1.0f : -1.0f;
+  const float cosine = sign * glm::dot(soup.normals_W[triangle], to_sun_W);
+  if (!(cosine > 0.0f)) return glm::vec3(0.0f);
+  if (!soup.is_smooth(triangle)) return glm::vec3(cosine);
+  glm::vec3 cosines;
+  for (int k = 0; k < 3; ++k) {
+    const glm::vec3& n = soup.vertex_normals_W[soup.triangles[triangle][k]];
+    // Normals on either side of the surface mean the same.
+    const float same = glm::dot(n, soup.normals_W[triangle]) < 0.0f ? -sign : sign;
+    cosines[k] = same * glm::dot(n, to_sun_W);
+  }
+  return cosines;
+}
 
 }  // namespace
 
-std::vector<Channel> ChannelsOf(Band band) {
-  switch (band) {
-    case Band::kRgb:
-      return {Channel::kBlue, Channel::kGreen, Channel::kRed};
-    case Band::kInfrared:
-      return {Channel::kInfrared};
-    case Band::kLuminance:
-      break;
-  }
-  return {Channel::kLuminance};
+double SunIlluminance(const Lighting& lighting) {
+  return lighting.sun.Direction_W().y() > 0.0 ? lighting.sun.illuminance_lx : 0.0;
 }
 
-float ReflectanceIn(Channel channel, const Material& material) {
-  const glm::vec3& rgb = material.reflectance_rgb;
-  switch (channel) {
-    case Channel::kLuminance:
-      return kRedLuminance * rgb.r + kGreenLuminance * rgb.g + kBlueLuminance * rgb.b;
-    case Channel::kRed:
-      return rgb.r;
-    case Channel::kGreen:
-      return rgb.g;
-    case Channel::kBlue:
-      return rgb.b;
-    case Channel::kInfrared:
-      return material.reflectance_830nm;
-    case Channel::kIlluminance:
-      break;
-  }
-  return 1.0f;
+Spectrum GroundExitance(const Lighting& lighting) {
+  const double E =
+      lighting.sky.illuminance_lx + SunIlluminance(lighting) * lighting.sun.Direction_W().y();
+  return DaylightSpectrum(lighting.sky.ground_reflectance * E, lighting);
 }
 
 std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
-                                        const std::vector<TriangleSkyView>& sky_views,
+                                        const LightBake& bake, const std::vector<Spectrum>& ambient,
                                         const Lighting& lighting, Channel channel) {
-  constexpr double kPi = std::numbers::pi;
-  const double per_lux = channel == Channel::kInfrared ? lighting.irradiance_830_per_lux : 1.0;
-  const bool illuminance = channel == Channel::kIlluminance;
-  const bool sun_is_up = lighting.sun.Direction_W().y() > 0.0;
-  const double E_sun = sun_is_up ? lighting.sun.illuminance_lx * per_lux : 0.0;
-  const double E_sky = lighting.sky.illuminance_lx * per_lux;
-  const double E_ground = E_sky * lighting.sky.ground_reflectance;
-  const Eigen::Vector3d sun = lighting.sun.Direction_W();
-  const glm::dvec3 to_sun(sun.x(), sun.y(), sun.z());
+  const Spectrum weights = WeightsOf(channel);
+  const bool arriving = IsArriving(channel);
+  const Spectrum E_sun = DaylightSpectrum(SunIlluminance(lighting), lighting);
+  const Eigen::Vector3f sun = lighting.sun.Direction_W().cast<float>();
+  const glm::vec3 to_sun_W(sun.x(), sun.y(), sun.z());
 
-  std::vector<SideRadiance> sides;
-  sides.reserve(2 * soup.size() + 2);
+  std::vector<SideRadiance> sides(2 * soup.size() + 2);
   for (size_t t = 0; t < soup.size(); ++t) {
     const Material& material = scene.materials[scene.meshes[soup.mesh_of[t]].material];
-    const double per_E =
-        illuminance ? 1.0 : static_cast<double>(ReflectanceIn(channel, material)) / kPi;
-    const double cos_sun = glm::dot(glm::dvec3(soup.normals_W[t]), to_sun);
+    const Spectrum per_E =
+        arriving ? weights : weights * ReflectanceSpectrum(material) * (1.0f / kPi);
+    const float emission = arriving ? 0.0f : glm::dot(weights, EmissionSpectrum(material));
+    const float sun_per_cosine = glm::dot(per_E, E_sun);
     for (const bool front : {true, false}) {
-      const TriangleSkyView& view = sky_views[SideIndex(t, front)];
-      const auto sky_at = [&](size_t corner) {
-        return per_E * (E_sky * static_cast<double>(view[corner].sky) +
-                        E_ground * static_cast<double>(view[corner].ground));
-      };
-      const double sky = sky_at(0);
-      sides.push_back(
-          {.sky = static_cast<float>(sky),
-           .sky_u = static_cast<float>(sky_at(1) - sky),
-           .sky_v = static_cast<float>(sky_at(2) - sky),
-           .sun = static_cast<float>(per_E * E_sun * std::max(front ? cos_sun : -cos_sun, 0.0))});
+      const size_t side = SideIndex(t, front);
+      const std::array<uint32_t, 3>& corners = bake.corners[side];
+      if (corners[0] == LightBake::kNoPoint) continue;
+      const auto at = [&](size_t k) { return glm::dot(per_E, ambient[corners[k]]) + emission; };
+      const glm::vec3 cosines = SunCosines(soup, t, front, to_sun_W);
+      sides[side] = {.ambient = at(0),
+                     .ambient_u = at(1) - at(0),
+                     .ambient_v = at(2) - at(0),
+                     .sun = sun_per_cosine * cosines[0],
+                     .sun_u = sun_per_cosine * (cosines[1] - cosines[0]),
+                     .sun_v = sun_per_cosine * (cosines[2] - cosines[0])};
     }
   }
-  for (const double E : {E_sky, E_ground}) {
-    const double L = illuminance ? 0.0 : E / kPi;
-    sides.push_back({.sky = static_cast<float>(L), .sky_u = 0.0f, .sky_v = 0.0f, .sun = 0.0f});
+  if (!arriving) {
+    sides.back().ambient = glm::dot(weights, GroundExitance(lighting)) * (1.0f / kPi);
   }
   return sides;
 }

@@ -3,42 +3,48 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderers/ray_caster.h"
-#include "renderers/sky_view.h"
+#include "renderers/light_bake.h"
+#include "renderers/spectrum.h"
+#include "scenes/lighting.h"
 
 namespace fenestra {
 
-/// Light leaving one side of a triangle, as a function of a hit's barycentric (u, v) and of the
-/// part V of the sunlight that arrives:
+/// Light leaving one side of a triangle in one channel, as a function of a hit's barycentric (u, v)
+/// and of the part V of the sunlight that arrives, without lamps and patterns:
 ///
-///     L(u, v, V) = sky + sky_u u + sky_v v + sun V.
+///     L(u, v, V) = ambient + ambient_u u + ambient_v v + V max(sun + sun_u u + sun_v v, 0).
 struct SideRadiance {
-  float sky;
-  float sky_u;
-  float sky_v;
-  float sun;  ///< 0 where the sun stands behind this side.
+  float ambient = 0.0f;
+  float ambient_u = 0.0f;
+  float ambient_v = 0.0f;
+  float sun = 0.0f;  ///< 0 with its derivatives where the sun stands behind this side.
+  float sun_u = 0.0f;
+  float sun_v = 0.0f;
 };
 
-/// Index of the side of a surface in SideRadiance tables: see SkyView. After the last triangle
-/// follow the sky and the ground, as if they were the two sides of one more triangle.
+/// Index of a side of a triangle: the front is the one its normal points to. After the last
+/// triangle follow the sky and the ground, as if they were the two sides of one more triangle.
 constexpr size_t SideIndex(size_t triangle, bool front) {
   return 2 * triangle + (front ? 0 : 1);
 }
 
-/// One quantity in which light is measured.
-enum class Channel { kLuminance, kRed, kGreen, kBlue, kInfrared, kIlluminance };
+/// Of a sky or sun of illuminance 1: the spectral irradiance at 830 nm may be 0.
+inline Spectrum DaylightSpectrum(double illuminance_lx, const Lighting& lighting) {
+  const auto E = static_cast<float>(illuminance_lx);
+  return {E, E, E, static_cast<float>(illuminance_lx * lighting.irradiance_830_per_lux)};
+}
 
-/// The channels of a band, in the order of its image.
-std::vector<Channel> ChannelsOf(Band band);
+/// Exitance of the unobstructed ground: ρ_g (E_sky + E_sun sin γ_sun).
+Spectrum GroundExitance(const Lighting& lighting);
 
-/// The reflectance that a channel sees. 1 for kIlluminance.
-float ReflectanceIn(Channel channel, const Material& material);
+/// The sun's illuminance; 0 below the horizon.
+double SunIlluminance(const Lighting& lighting);
 
-/// Radiance of all sides under this light; of Lambert surfaces, L = ρ/π E with
-/// E = E_sun cos θ V + E_h (sky + ρ_g ground). For kIlluminance it is E itself [lx], and 0 for
-/// the sky and the ground.
+/// Radiance of all sides; `ambient` is the irradiance of the bake's points. The sky's is left at 0.
+///
+/// For channels of arriving light it is the irradiance itself, and 0 for sky and ground.
 std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
-                                        const std::vector<TriangleSkyView>& sky_views,
+                                        const LightBake& bake, const std::vector<Spectrum>& ambient,
                                         const Lighting& lighting, Channel channel);
 
 }  // namespace fenestra

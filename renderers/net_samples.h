@@ -78,14 +78,28 @@ constexpr float ToUnit(uint32_t fraction) {
   return static_cast<float>(static_cast<int32_t>(fraction >> 8)) * 0x1p-24f;
 }
 
-/// The scrambling seeds of a pixel. SplitMix64's finaliser: G. L. Steele, D. Lea and C. H. Flood,
-/// "Fast splittable pseudorandom number generators", OOPSLA 2014.
-constexpr NetPoint ScrambleOf(uint64_t key, uint64_t pixel) {
-  uint64_t z = key + (pixel + 1) * 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  z ^= z >> 31;
-  return {static_cast<uint32_t>(z), static_cast<uint32_t>(z >> 32)};
+/// A hash of 32 bits. Source: C. Wellons, "Prospecting for hash functions", 2018 (lowbias32).
+constexpr uint32_t Hashed(uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ (x >> 16);
 }
+
+/// What the samples of one image are scrambled with.
+struct ImageScramble {
+  uint32_t x;
+  uint32_t y;
+
+  constexpr explicit ImageScramble(uint64_t key)
+      : x(Hashed(static_cast<uint32_t>(key))), y(Hashed(static_cast<uint32_t>(key >> 32))) {}
+
+  /// The scrambling seeds of a pixel.
+  constexpr NetPoint OfPixel(uint32_t pixel) const {
+    const uint32_t seed = Hashed(pixel + x);
+    return {seed, Hashed(seed ^ y)};
+  }
+};
 
 }  // namespace fenestra

@@ -9,8 +9,9 @@
 
 namespace fenestra {
 
-/// The mean radiance of each pixel's area: a few samples everywhere, then many in place of them
-/// wherever two different things meet among the samples of a pixel and its eight neighbours.
+/// The mean radiance of each pixel's area: a few samples everywhere; then, wherever two different
+/// things meet among the samples of a pixel and its eight neighbours, the edge between them (see
+/// SearchEdge), or many samples where there is more than an edge.
 ///
 /// Sample i of a pixel is Sobol point i, scrambled (see net_samples.h) by a hash of the stream's
 /// key and the pixel's index. So samples of a pixel are stratified along x and along y, and the

@@ -1,29 +1,58 @@
 #include "renderers/ray_caster.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/input_error.h"
 #include "renderers/aov_cast.h"
+#include "renderers/illumination.h"
 #include "renderers/light_transport.h"
 #include "renderers/pixel_sampling.h"
-#include "renderers/sky_view.h"
-#include "renderers/traced_scene.h"
 
 namespace fenestra {
+namespace {
+
+// Between the rays of neighbouring pixels, over the depth: the mean of the whole image.
+float Spread(const RayGrid& rays) {
+  const Eigen::Vector2f across = rays.Corner(rays.width_px(), rays.height_px()) - rays.Corner(0, 0);
+  return std::sqrt(std::abs(across.x() * across.y()) /
+                   static_cast<float>(rays.width_px() * rays.height_px()));
+}
+
+}  // namespace
+
+void Validate(const RayCasterOptions& options) {
+  if (options.bounces >= 0 && options.bounces <= 1000) return;
+  throw InputError("ray caster",
+                   fmt::format("bounces must be in 0 to 1000, not {}", options.bounces));
+}
 
 struct RayCaster::Impl {
-  explicit Impl(const Scene& the_scene)
-      : scene((Validate(the_scene), the_scene)),
+  Impl(const Scene& the_scene, const RayCasterOptions& options)
+      : scene((Validate(options), Validate(the_scene), the_scene)),
         traced(scene),
-        sky_views(BakeSkyViews(traced)),
-        side_keys(MakeSideKeys(traced.opaque())) {}
+        surfaces(NumberSurfaces(traced.opaque())),
+        bake(BakeLight(traced, surfaces)),
+        side_keys(MakeSideKeys(surfaces)),
+        illumination(scene, traced, bake, options.bounces) {}
 
-  LightTransport::Surfaces Surfaces() const { return {scene, traced, sky_views, side_keys}; }
+  LightTransport Light(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
+                       const std::vector<Channel>& channels) const {
+    return LightTransport({scene, traced, bake, side_keys}, illumination.Ambient(lighting),
+                          lighting, channels, {.p_WC = ToFloat(X_WC).p_WC, .spread = Spread(rays)});
+  }
 
   Scene scene;
   TracedScene traced;
-  std::vector<TriangleSkyView> sky_views;
+  std::vector<uint32_t> surfaces;
+  LightBake bake;
   std::vector<uint32_t> side_keys;
+  Illumination illumination;
 };
 
-RayCaster::RayCaster(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+RayCaster::RayCaster(const Scene& scene, const RayCasterOptions& options)
+    : impl_(std::make_unique<Impl>(scene, options)) {}
 
 RayCaster::~RayCaster() = default;
 
@@ -35,15 +64,16 @@ cv::Mat RayCaster::Render(const RayGrid& rays, const Pose& X_WC, const Lighting&
                           const RenderOptions& options, const RandomStream& sampling) const {
   Validate(lighting);
   Validate(options);
-  const FloatPose camera = ToFloat(X_WC);
-  const LightTransport light(impl_->Surfaces(), lighting, ChannelsOf(options.band), camera.p_WC);
-  return SampleImage(light, rays, camera, options, sampling);
+  const LightTransport light = impl_->Light(rays, X_WC, lighting, ChannelsOf(options.band));
+  return SampleImage(light, rays, ToFloat(X_WC), options, sampling);
 }
 
 AovImages RayCaster::CastAovs(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
                               const AovOptions& options) const {
   Validate(lighting);
-  return CastAovImages(impl_->Surfaces(), rays, X_WC, lighting, options);
+  const LightTransport light =
+      impl_->Light(rays, X_WC, lighting, {Channel::kIlluminance, Channel::kIrradiance830});
+  return CastAovImages(impl_->scene, impl_->traced, light, rays, X_WC, options);
 }
 
 }  // namespace fenestra

@@ -25,9 +25,9 @@ struct RenderOptions {
   Band band = Band::kLuminance;
   /// Samples of every pixel: 1, 4, 16, 64 or 256.
   int samples_per_pixel = 4;
-  /// Samples of a pixel that an edge crosses (of an object, a material or a shadow); not less than
-  /// samples_per_pixel, and ended at 64 where those see only one thing. 256 place a straight edge
-  /// in each row to 0.0015 px RMS if it runs along the pixels, to 0.006 px across it at any angle.
+  /// If this is more than samples_per_pixel, edges (of an object or a shadow) are searched for in
+  /// the pixels that they cross, which places them to 0.0015 px RMS in each row; and this many
+  /// samples go to pixels with more in them than one edge: 256 place edges there to about 0.006 px.
   int edge_samples_per_pixel = 256;
 };
 
@@ -46,22 +46,33 @@ struct AovOptions {
 /// Per-pixel truth along one ray per pixel, through its centre unless offsets say otherwise.
 /// Surfaces behind a pane of glass are seen through it; `transmittance` says how much light passes.
 struct AovImages {
-  cv::Mat1f depth_m;     ///< Along the optical axis to the first opaque surface; NaN: none.
-  cv::Mat3f normal_C;    ///< Geometric unit normal in the camera frame, facing the camera; 0: none.
-  cv::Mat1i object_id;   ///< Index of the mesh in the scene; -1: none.
-  cv::Mat1b sees_sun;    ///< 255 where the sun reaches the surface (0 if there is no sun).
-  cv::Mat1b sees_point;  ///< 255 where the point p_WP is in sight; empty without p_WP.
+  cv::Mat1f depth_m;    ///< Along the optical axis to the first opaque surface; NaN: none.
+  cv::Mat3f normal_C;   ///< Geometric unit normal in the camera frame, facing the camera; 0: none.
+  cv::Mat1i object_id;  ///< Index of the mesh in the scene; -1: none.
+  cv::Mat1i material_id;    ///< Index of its material; -1: none.
+  cv::Mat1b sees_sun;       ///< 255 where the sun reaches the surface (0 if there is no sun).
+  cv::Mat1b sees_point;     ///< 255 where the point p_WP is in sight; empty without p_WP.
   cv::Mat1f transmittance;  ///< Of the glass between camera and surface, [0, 1].
   cv::Mat1f reflectance_830nm;
-  cv::Mat1f irradiance_830;  ///< Ambient, on the surface [W/(m² nm)].
+  cv::Mat1f irradiance_lx;   ///< Illuminance of the surface, by all lights [lx].
+  cv::Mat1f irradiance_830;  ///< By all lights, on the surface [W/(m² nm)].
 };
 
+struct RayCasterOptions {
+  /// Diffuse reflections that light goes through before it reaches what is seen. The rest that is
+  /// left out is at most ρ^(bounces + 1) of the light in a closed white room of reflectance ρ.
+  int bounces = 16;
+};
+
+/// Throws InputError unless bounces is in [0, 1000].
+void Validate(const RayCasterOptions& options);
+
 /// An Embree ray caster for one scene. Construction builds the ray tracing structures and bakes,
-/// for every vertex, how much of the sky and of the ground it sees; all else depends on the
-/// arguments of the calls. Const calls are thread-safe and single-threaded inside.
+/// for every vertex, what it sees of the sky, of the ground and of other surfaces; all else depends
+/// on the arguments of the calls. Const calls are thread-safe and single-threaded inside.
 class RayCaster {
  public:
-  explicit RayCaster(const Scene& scene);
+  explicit RayCaster(const Scene& scene, const RayCasterOptions& options = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

@@ -26,6 +26,9 @@ class RayGrid {
                     static_cast<size_t>(column)];
   }
 
+  /// All corners row by row, width + 1 each: x and y in turns.
+  const float* corner_data() const { return corners_.data()->data(); }
+
  private:
   CameraModel camera_;
   std::vector<Eigen::Vector2f> corners_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -8,24 +9,35 @@
 
 namespace fenestra {
 
-/// All triangles of a scene whose material is of one kind, in the order of its meshes. Triangles
-/// without area are left out: no ray can hit them.
+/// All triangles of a scene that are of one kind. Triangles without area are left out: no ray can
+/// hit them. Those whose texture has holes come last, otherwise they are in the order of the
+/// meshes.
 struct TriangleSoup {
   std::vector<glm::vec3> positions_W;
   std::vector<glm::uvec3> triangles;  ///< Indices into positions_W.
   std::vector<uint32_t> mesh_of;      ///< Of each triangle, in the scene.
   std::vector<glm::vec3> normals_W;   ///< Of each triangle: unit, right-handed with its corners.
+  std::vector<bool> is_closed;        ///< Of each triangle: see Mesh::closed.
+  size_t solid_count = 0;             ///< Triangles before the first one with holes.
 
-  std::vector<bool> is_closed;  ///< Of each triangle: see Mesh::closed.
+  /// Of each position. A mesh without texture coordinates has zeros, one without colours ones, and
+  /// one without normals zero vectors.
+  std::vector<glm::vec2> texture_coordinates;
+  std::vector<glm::vec3> colors;
+  std::vector<glm::vec3> vertex_normals_W;
 
   size_t size() const { return triangles.size(); }
+  bool is_smooth(size_t triangle) const {
+    return vertex_normals_W[triangles[triangle].x] != glm::vec3(0.0f);
+  }
 };
 
 TriangleSoup MakeTriangleSoup(const Scene& scene, Material::Kind kind);
 
-/// Numbers the planes that the triangles lie in: two triangles of one mesh whose planes agree to
-/// about 1e-4 in the normal and 0.1 mm in the distance have the same number. An edge that is seen
-/// lies between surfaces of different numbers.
-std::vector<uint32_t> NumberPlanes(const TriangleSoup& soup);
+/// Numbers the surfaces that the triangles are part of. An edge that is seen lies between surfaces
+/// of different numbers. Triangles of one mesh are of one surface if their planes agree to about
+/// 1e-4 in the normal and 0.1 mm in the distance, or if they are smooth and share an edge with the
+/// same normals at its ends.
+std::vector<uint32_t> NumberSurfaces(const TriangleSoup& soup);
 
 }  // namespace fenestra

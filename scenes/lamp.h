@@ -11,7 +11,7 @@ namespace fenestra {
 /// A small lamp: its illuminance falls with the square of the distance r, E = I cos θ / r², and its
 /// shadows are hard. Shines in all directions, or in a cone with a soft rim.
 struct Lamp {
-  std::string name;
+  std::string name{};
   Eigen::Vector3d p_WL = Eigen::Vector3d::Zero();
   glm::vec3 intensity_rgb{0.0f};  ///< I [cd], 0 or more.
   /// Spectral irradiance at 830 nm per lux [W/(m² nm lx)] of the luminance of intensity_rgb. 0: an
@@ -27,7 +27,7 @@ struct Lamp {
     double inner_rad = 0.0;                              ///< In [0, outer).
     double outer_rad = std::numbers::pi / 4.0;           ///< At most π / 2.
   };
-  std::optional<Cone> cone;
+  std::optional<Cone> cone{};
 };
 
 }  // namespace fenestra

@@ -33,7 +33,7 @@ struct Material {
   float emission_830nm = 0.0f;   ///< Lambert only; own radiance at 830 nm [W/(m² sr nm)].
   /// Index into Scene::textures; Lambert only. Multiplies reflectance and emission: in the visible
   /// per colour, at 830 nm by its luminance. Without texture coordinates a mesh has no texture.
-  std::optional<uint32_t> texture;
+  std::optional<uint32_t> texture{};
   /// Where the texture's alpha is below this there is a hole in the surface. 0: no holes.
   float alpha_cutoff = 0.0f;
 };
@@ -41,19 +41,19 @@ struct Material {
 /// Triangles of one object and one material. A surface is two-sided unless it is closed.
 struct Mesh {
   std::string name;
-  std::vector<glm::vec3> positions_W;  ///< [m]
-  std::vector<glm::uvec3> triangles;   ///< Indices into positions_W.
-  uint32_t material = 0;               ///< Index into Scene::materials.
+  std::vector<glm::vec3> positions_W{};  ///< [m]
+  std::vector<glm::uvec3> triangles{};   ///< Indices into positions_W.
+  uint32_t material = 0;                 ///< Index into Scene::materials.
   /// Bounds a solid body on whose inside no light falls; triangles wind counter-clockwise as seen
   /// from outside.
   bool closed = false;
   /// One per position, or none. (0, 0) is the texture's top left corner, (1, 1) its bottom right.
-  std::vector<glm::vec2> texture_coordinates;
+  std::vector<glm::vec2> texture_coordinates{};
   /// One per position, or none: multiplies reflectance and emission; linear, each in [0, 1].
-  std::vector<glm::vec3> colors;
+  std::vector<glm::vec3> colors{};
   /// One unit vector per position, or none: a smooth surface that the triangles approximate. They
   /// shade; shadows and silhouettes are those of the triangles.
-  std::vector<glm::vec3> normals_W;
+  std::vector<glm::vec3> normals_W{};
 };
 
 /// The window whose truth is scored. Frame O: origin at the centre of the frame's front outer

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/input_error.h"
 
@@ -39,6 +40,26 @@ Pose NominalRight(double baseline_m) {
 
 Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
   return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
+}
+
+// Where the left image's surface points are in the right one, as differences of their pixels.
+cv::Mat2f MatchesOf(const cv::Mat1f& depth_m, const StereoCalibration& cameras, const Pose& X_RL) {
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  cv::Mat2f matches(depth_m.size(), cv::Vec2f(kNone, kNone));
+  for (int v = 0; v < depth_m.rows; ++v) {
+    for (int u = 0; u < depth_m.cols; ++u) {
+      const auto ray = cameras.left.UnprojectRay({u, v});
+      if (!ray || std::isnan(depth_m(v, u))) continue;
+      const auto right = cameras.right.Project(X_RL * Eigen::Vector3d(*ray * depth_m(v, u)));
+      if (!right) continue;
+      const bool inside = right->x() >= -0.5 && right->x() < depth_m.cols - 0.5 &&
+                          right->y() >= -0.5 && right->y() < depth_m.rows - 0.5;
+      if (!inside) continue;
+      matches(v, u) =
+          cv::Vec2f(static_cast<float>(u - right->x()), static_cast<float>(v - right->y()));
+    }
+  }
+  return matches;
 }
 
 cv::Mat1b Quantise(const cv::Mat1f& signal) {
@@ -120,9 +141,21 @@ GroundTruth StereoRig::Truth(const Scene& scene, const Pose& X_WB, const TrueSta
   return MakeGroundTruth(scene, X_WL, cameras);
 }
 
-AovImages StereoRig::LeftAovs(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                              const TrueState& state) const {
-  return caster.CastAovs(rays_, X_WB * state.X_BL, lighting, {});
+TruthImages StereoRig::LeftTruth(const RayCaster& caster, const Lighting& lighting,
+                                 const Pose& X_WB, const TrueState& state) const {
+  const Pose X_WL = X_WB * state.X_BL;
+  const Pose X_WR = X_WB * state.X_BR;
+  const RenderOptions render{.edge_samples_per_pixel = options_.edge_samples_per_pixel};
+  AovImages aovs =
+      caster.CastAovs(rays_, X_WL, lighting, {.offsets_px = {}, .p_WP = X_WR.translation()});
+  const cv::Mat1f radiance = caster.Render(rays_, X_WL, lighting, render, RandomStream(0));
+  cv::Mat2f disparity_px = MatchesOf(aovs.depth_m, nominal_, X_WR.inverse() * X_WL);
+  return {.camera = nominal_.left,
+          .X_WC = X_WL,
+          .aovs = std::move(aovs),
+          .band = render.band,
+          .radiance = radiance,
+          .disparity_px = std::move(disparity_px)};
 }
 
 }  // namespace fenestra

@@ -6,6 +6,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"
+#include "sim/truth_images.h"
 
 namespace fenestra {
 
@@ -53,9 +54,8 @@ class StereoRig {
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const TrueState& state, const RandomStream& shot) const;
   GroundTruth Truth(const Scene& scene, const Pose& X_WB, const TrueState& state) const;
-  /// Per-pixel truth of the left camera.
-  AovImages LeftAovs(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                     const TrueState& state) const;
+  TruthImages LeftTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                        const TrueState& state) const;
 
  private:
   StereoRigOptions options_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -180,10 +181,24 @@ GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) c
   return MakeGroundTruth(scene, X_WB, cameras);
 }
 
-AovImages StructuredLightSensor::DepthAovs(const RayCaster& caster, const Lighting& lighting,
-                                           const Pose& X_WB) const {
+TruthImages StructuredLightSensor::DepthTruth(const RayCaster& caster, const Lighting& lighting,
+                                              const Pose& X_WB) const {
   const Eigen::Vector3d p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0);
-  return caster.CastAovs(depth_rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = p_WP});
+  AovImages aovs = caster.CastAovs(depth_rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = p_WP});
+  const RenderOptions render{.band = Band::kInfrared,
+                             .edge_samples_per_pixel = options_.edge_samples_per_pixel};
+  const cv::Mat1f radiance = caster.Render(depth_rays_, X_WB, lighting, render, RandomStream(0));
+  const auto fb =
+      static_cast<float>(options_.depth_focal_px * options_.projector_baseline_m);  // [px m]
+  cv::Mat2f disparity_px(aovs.depth_m.size());
+  std::transform(aovs.depth_m.begin(), aovs.depth_m.end(), disparity_px.begin(),
+                 [fb](float z_m) { return cv::Vec2f(fb / z_m, 0.0f * z_m); });
+  return {.camera = nominal_.depth,
+          .X_WC = X_WB,
+          .aovs = std::move(aovs),
+          .band = render.band,
+          .radiance = radiance,
+          .disparity_px = std::move(disparity_px)};
 }
 
 }  // namespace fenestra

@@ -9,6 +9,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"
+#include "sim/truth_images.h"
 
 namespace fenestra {
 
@@ -88,7 +89,7 @@ class StructuredLightSensor {
   RgbdObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                           const RandomStream& shot) const;
   GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
-  AovImages DepthAovs(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
+  TruthImages DepthTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
   /// The depth image with its reasons; Observe's depth is the same.
   struct DepthFrame {

@@ -85,9 +85,12 @@ TEST(Aovs, AmbientIrradianceIsThatOfTheLights) {
   const RayCaster caster(MakePaperTarget({.with_target = false}));
   Lighting lighting = OnlySun(0.4, 0.6, 5e4);
   lighting.sky = {.illuminance_lx = 1e4, .ground_reflectance = 0.2};
-  const double lux = 5e4 * lighting.sun.Direction_W().z() + 1e4 * (0.5 + 0.5 * 0.2);
+  // The ground, which the sun lights too, fills half of what the wall sees.
+  const double ground_lx = 0.2 * (1e4 + 5e4 * lighting.sun.Direction_W().y());
+  const double lux = 5e4 * lighting.sun.Direction_W().z() + 0.5 * 1e4 + 0.5 * ground_lx;
   const RayGrid rays(DistortedCamera());
   AovImages aovs = caster.CastAovs(rays, Oblique(), lighting, {});
+  EXPECT_NEAR(aovs.irradiance_lx(50, 60), lux, 1e-6 * lux);
   const double expected = lux * kDaylightIrradiance830PerLux;
   EXPECT_NEAR(aovs.irradiance_830(50, 60), expected, 1e-6 * expected);
   EXPECT_EQ(aovs.sees_sun(50, 60), 255);

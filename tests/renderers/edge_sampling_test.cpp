@@ -84,7 +84,7 @@ double Radians(double deg) {
   return deg * std::numbers::pi / 180.0;
 }
 
-TEST(EdgeSampling, PlacesEdgesToSixThousandthsOfAPixel) {
+TEST(EdgeSampling, PlacesEdgesToThreeThousandthsOfAPixel) {
   for (const double tilt_deg : kTilts_deg) {
     // At 45 degrees all rows cut the edge alike, so its place within the pixels matters.
     for (const double below_px : {0.0, 0.2}) {
@@ -93,7 +93,7 @@ TEST(EdgeSampling, PlacesEdgesToSixThousandthsOfAPixel) {
       ASSERT_GT(errors.size(), 80u) << tilt_deg;
       // The RMS of n normal numbers is known to 1/√(2n); 4 of these: false alarm 3e-5.
       const double sampling = 4.0 / std::sqrt(2.0 * static_cast<double>(errors.size()));
-      EXPECT_LT(Rms(errors), 0.006 * (1.0 + sampling)) << tilt_deg << " degrees";
+      EXPECT_LT(Rms(errors), 0.003 * (1.0 + sampling)) << tilt_deg << " degrees";
       RecordProperty(
           "rms_mpx_at_" + std::to_string(tilt_deg) + "_deg_below_" + std::to_string(below_px),
           std::to_string(1e3 * Rms(errors)));
@@ -132,8 +132,8 @@ TEST(EdgeSampling, PixelsAwayFromEdgesKeepTheirBaseSamples) {
 }
 
 TEST(NetSamples, StayStratifiedUnderScrambling) {
-  for (const uint64_t pixel : {0u, 1u, 752u * 480u}) {
-    const NetPoint scramble = ScrambleOf(99, pixel);
+  for (const uint32_t pixel : {0u, 1u, 752u * 480u}) {
+    const NetPoint scramble = ImageScramble(99).OfPixel(pixel);
     for (const int bits_x : {0, 1, 4, 7, 8}) {  // Shapes of elementary intervals of area 1/256.
       std::set<std::pair<uint64_t, uint64_t>> intervals;
       for (size_t i = 0; i < kMostPixelSamples; ++i) {

@@ -46,7 +46,7 @@ Lighting OnlySun(double azimuth_rad, double elevation_rad, double illuminance_lx
   Lighting lighting;
   lighting.sun = {
       .azimuth_rad = azimuth_rad, .elevation_rad = elevation_rad, .illuminance_lx = illuminance_lx};
-  lighting.sky.illuminance_lx = 0.0;
+  lighting.sky = {.illuminance_lx = 0.0, .ground_reflectance = 0.0};
   return lighting;
 }
 

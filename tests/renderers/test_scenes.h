@@ -28,7 +28,7 @@ Pose LookingAt(const Eigen::Vector3d& p_WC, const Eigen::Vector3d& p_WQ);
 /// The project's stereo camera at half its size, with its distortion.
 CameraModel DistortedCamera();
 
-/// No light but this.
+/// No light but this; the sun alone stands over black ground.
 Lighting OnlySun(double azimuth_rad, double elevation_rad, double illuminance_lx);
 Lighting OnlySky(double illuminance_lx, double ground_reflectance);
 

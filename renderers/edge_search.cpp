@@ -1,0 +1,207 @@
+#include "renderers/edge_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace fenestra {
+namespace {
+
+using Arriving = LightTransport::Arriving;
+
+constexpr int kProbes = 32;     // Samples all over the pixel,
+constexpr int kBorders = 4;     // and sixteen on each of its borders.
+constexpr int kBisections = 8;  // To 1/256 of a line.
+// A probe nearer than this to the edge that the lines have found may be on either side of it.
+constexpr float kNear = 1.0f / 64.0f;
+
+float LineAt(int line) {
+  return (static_cast<float>(line) + 0.5f) / static_cast<float>(kLanes);
+}
+
+// Everything that was seen in a pixel, with its place.
+struct Sighting {
+  float s;
+  float t;
+  uint32_t key;
+};
+
+// One of the two things that are seen.
+struct Thing {
+  uint32_t key = 0;
+  int count = 0;
+  float s_sum = 0.0f;
+  float t_sum = 0.0f;
+  std::array<float, LightTransport::kMostChannels> radiance_sum{};
+};
+
+class EdgeSearch {
+ public:
+  EdgeSearch(const PixelSampler& sampler, Film::Pixel pixel)
+      : sampler_(sampler), pixel_(pixel), patch_(sampler.PatchOf(pixel)) {}
+
+  std::optional<Film::PixelResult> Run(const Film::PixelResult& known) {
+    if (!LookAtBorders()) return std::nullopt;
+    if (thing_count_ == 1 && things_[0].key == known.key) return known;
+    if (!LookInside()) return std::nullopt;
+    if (thing_count_ == 1) return Result(1.0f, things_[0].key);
+    const float ds = things_[0].s_sum / static_cast<float>(things_[0].count) -
+                     things_[1].s_sum / static_cast<float>(things_[1].count);
+    const float dt = things_[0].t_sum / static_cast<float>(things_[0].count) -
+                     things_[1].t_sum / static_cast<float>(things_[1].count);
+    along_s_ = std::abs(ds) >= std::abs(dt);
+    if (!Bisect() || !Agrees()) return std::nullopt;
+    float area = 0.0f;
+    for (int i = 0; i < kLanes; ++i) area += edge_[i];
+    area /= static_cast<float>(kLanes);
+    return Result(first_ == things_[0].key ? area : 1.0f - area, Film::kMixed);
+  }
+
+ private:
+  // Notes what a packet has seen; false if it is a third thing.
+  bool Note(const PixelPoints& points, const Arriving& arriving) {
+    for (int i = 0; i < kLanes; ++i) {
+      const uint32_t key = arriving.key[i];
+      size_t k = 0;
+      while (k < thing_count_ && things_[k].key != key) ++k;
+      if (k == thing_count_) {
+        if (thing_count_ == things_.size()) return false;
+        things_[thing_count_++].key = key;
+      }
+      Thing& thing = things_[k];
+      ++thing.count;
+      thing.s_sum += points.s[i];
+      thing.t_sum += points.t[i];
+      for (size_t c = 0; c < sampler_.channel_count(); ++c) {
+        thing.radiance_sum[c] += arriving.radiance[c][i];
+      }
+      sightings_[sighting_count_++] = {points.s[i], points.t[i], key};
+    }
+    return true;
+  }
+
+  bool LookInside() {
+    for (int first = 0; first < kProbes; first += kLanes) {
+      const PixelPoints points = sampler_.SamplePoints(pixel_, first);
+      if (!Note(points, sampler_.Trace(patch_, points))) return false;
+    }
+    return true;
+  }
+
+  bool LookAtBorders() {
+    for (int border = 0; border < kBorders; ++border) {
+      PixelPoints points;
+      for (int i = 0; i < kLanes; ++i) {
+        const float end = border % 2 == 0 ? 0.0f : 1.0f;
+        points.s[i] = border < 2 ? end : LineAt(i);
+        points.t[i] = border < 2 ? LineAt(i) : end;
+      }
+      const Arriving arriving = sampler_.Trace(patch_, points);
+      border_keys_[static_cast<size_t>(border)] = arriving.key;
+      if (!Note(points, arriving)) return false;
+    }
+    return true;
+  }
+
+  // Which thing comes first along the lines; false if that is not the same on all lines.
+  bool Orient(const Lanes<uint32_t>& begins, const Lanes<uint32_t>& ends) {
+    bool crossed = false;
+    for (int i = 0; i < kLanes; ++i) {
+      if (begins[i] == ends[i]) continue;
+      if (crossed && begins[i] != first_) return false;
+      first_ = begins[i];
+      crossed = true;
+    }
+    return crossed;
+  }
+
+  bool Bisect() {
+    const Lanes<uint32_t>& begins = border_keys_[along_s_ ? 0 : 2];
+    const Lanes<uint32_t>& ends = border_keys_[along_s_ ? 1 : 3];
+    if (!Orient(begins, ends)) return false;
+    // The points that bisection tries lie on a grid; shifted at random on each line, it leaves
+    // errors that are independent and without bias.
+    constexpr float kStep = 1.0f / ((1 << kBisections) - 1);
+    const uint32_t seed = sampler_.SeedsOf(pixel_).x;
+    Lanes<float> low;
+    Lanes<float> high;
+    for (int i = 0; i < kLanes; ++i) {
+      low[i] = -kStep * ToUnit(Hashed(seed + static_cast<uint32_t>(i)));
+      high[i] = low[i] + 1.0f + kStep;
+    }
+    for (int step = 0; step < kBisections; ++step) {
+      PixelPoints points;
+      for (int i = 0; i < kLanes; ++i) {
+        const float middle = 0.5f * (low[i] + high[i]);
+        points.s[i] = along_s_ ? middle : LineAt(i);
+        points.t[i] = along_s_ ? LineAt(i) : middle;
+      }
+      const Arriving arriving = sampler_.Trace(patch_, points);
+      for (int i = 0; i < kLanes; ++i) {
+        const uint32_t key = arriving.key[i];
+        if (key != things_[0].key && key != things_[1].key) return false;
+        // On a line whose ends see the same nothing else may turn up.
+        if (begins[i] == ends[i] && key != begins[i]) return false;
+        (key == first_ ? low : high)[i] = 0.5f * (low[i] + high[i]);
+      }
+    }
+    for (int i = 0; i < kLanes; ++i) {
+      edge_[i] = begins[i] != ends[i] ? std::clamp(0.5f * (low[i] + high[i]), 0.0f, 1.0f)
+                                      : (begins[i] == first_ ? 1.0f : 0.0f);
+    }
+    return true;
+  }
+
+  // Whether all that was seen lies on the side of the edge on which it should.
+  bool Agrees() const {
+    for (size_t n = 0; n < sighting_count_; ++n) {
+      const Sighting& seen = sightings_[n];
+      const float along = along_s_ ? seen.s : seen.t;
+      const float across = (along_s_ ? seen.t : seen.s) * static_cast<float>(kLanes);
+      const int line = std::clamp(static_cast<int>(across), 0, kLanes - 1);
+      float nearest = 1.0f;
+      float farthest = 0.0f;
+      for (int i = std::max(line - 1, 0); i <= std::min(line + 1, kLanes - 1); ++i) {
+        nearest = std::min(nearest, edge_[i]);
+        farthest = std::max(farthest, edge_[i]);
+      }
+      if (along < nearest - kNear && seen.key != first_) return false;
+      if (along > farthest + kNear && seen.key == first_) return false;
+    }
+    return true;
+  }
+
+  Film::PixelResult Result(float area_of_thing_0, uint32_t key) const {
+    Film::PixelResult result;
+    result.key = key;
+    const std::array<float, 2> areas = {area_of_thing_0, 1.0f - area_of_thing_0};
+    for (size_t c = 0; c < sampler_.channel_count(); ++c) {
+      for (size_t k = 0; k < thing_count_; ++k) {
+        result.radiance[c] +=
+            areas[k] * things_[k].radiance_sum[c] / static_cast<float>(things_[k].count);
+      }
+    }
+    return result;
+  }
+
+  const PixelSampler& sampler_;
+  Film::Pixel pixel_;
+  PixelPatches patch_;
+  std::array<Thing, 2> things_;
+  size_t thing_count_ = 0;
+  std::array<Sighting, kProbes + kBorders * kLanes> sightings_;
+  size_t sighting_count_ = 0;
+  std::array<Lanes<uint32_t>, kBorders> border_keys_;  // Left, right, top, bottom.
+  bool along_s_ = true;
+  uint32_t first_ = 0;  // The thing before the edge.
+  Lanes<float> edge_;   // Where each line meets the edge: 0 or 1 if it does not.
+};
+
+}  // namespace
+
+std::optional<Film::PixelResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel,
+                                            const Film::PixelResult& known) {
+  return EdgeSearch(sampler, pixel).Run(known);
+}
+
+}  // namespace fenestra
