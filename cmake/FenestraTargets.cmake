@@ -19,6 +19,11 @@ if(FENESTRA_SANITIZE)
   # without, hands over memory that it does not. The sanitizer's malloc is aligned to 16 bytes, too.
   target_compile_definitions(fenestra_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
+if(FENESTRA_FUZZ)
+  target_compile_options(fenestra_options INTERFACE
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_link_options(fenestra_options INTERFACE -fsanitize=address,undefined)
+endif()
 find_program(MOLD mold)
 if(MOLD)
   target_link_options(fenestra_options INTERFACE -fuse-ld=mold)

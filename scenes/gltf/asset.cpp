@@ -17,11 +17,6 @@ namespace {
 
 using nlohmann::json;
 
-// An accessor without data describes zeros; three per triangle are the most that could be of use.
-size_t MostUndefinedElements(const GltfReadOptions& options) {
-  return 3 * options.max_triangles;
-}
-
 // tinygltf refuses indices whose accessor has no buffer view, though these are legal zeros. So they
 // pass it by.
 void TakeIndices(json& structure) {
@@ -65,10 +60,9 @@ std::vector<uint64_t> BufferLengths(const json& root) {
   return lengths;
 }
 
-void CheckStructure(const Document& document, const tinygltf::Model& model,
-                    const GltfReadOptions& options) {
+void CheckStructure(const Document& document, const tinygltf::Model& model) {
   FaultList faults(document.file);
-  CheckAccessors(model, BufferLengths(document.json), MostUndefinedElements(options), faults);
+  CheckAccessors(model, BufferLengths(document.json), faults);
   CheckMeshes(model, faults);
   CheckNodes(model, document.json, faults);
   CheckSkins(model, faults);
@@ -156,7 +150,7 @@ Asset LoadAsset(const std::filesystem::path& file, const GltfReadOptions& option
   asset.file = file;
   asset.model = ParseStructure(document);
   asset.ignored_extensions = IgnoredExtensions(document.json);
-  CheckStructure(document, asset.model, options);
+  CheckStructure(document, asset.model);
   LoadBuffers(document, asset, budget, faults);
   faults.ThrowIfAny();
   LoadImages(document, asset, budget, faults);

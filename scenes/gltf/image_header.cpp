@@ -50,7 +50,8 @@ bool IsStartOfFrame(uint8_t marker) {
 
 bool EndsWithEndOfImage(Span bytes) {
   constexpr std::array<uint8_t, 2> kEndOfImage = {0xFF, 0xD9};
-  return std::ranges::find_end(bytes, kEndOfImage).begin() != bytes.end();
+  return std::search(bytes.begin(), bytes.end(), kEndOfImage.begin(), kEndOfImage.end()) !=
+         bytes.end();
 }
 
 // A JPEG file is a row of segments, 0xFF and a marker and mostly a length, up to the scan.

@@ -16,6 +16,9 @@ namespace {
 
 using Eigen::Matrix4d;
 
+// Each is an object with arrays of its own, which costs half a kilobyte.
+constexpr size_t kMostMeshes = 1'000'000;
+
 const tinygltf::Mesh* MeshOf(const Asset& asset, const PlacedNode& placed) {
   const int mesh = asset.model.nodes[placed.node].mesh;
   return placed.is_visible && mesh >= 0 ? &asset.model.meshes[static_cast<size_t>(mesh)] : nullptr;
@@ -24,6 +27,7 @@ const tinygltf::Mesh* MeshOf(const Asset& asset, const PlacedNode& placed) {
 void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most) {
   size_t triangles = 0;
   size_t vertices = 0;
+  size_t meshes = 0;
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Mesh* mesh = MeshOf(asset, placed);
     if (mesh == nullptr) continue;
@@ -34,11 +38,13 @@ void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes
       const size_t more_vertices = ClaimedVertices(asset, primitive);
       // Divided rather than multiplied, which could overflow.
       if (more_triangles > (most - triangles) / instances ||
-          more_vertices > (3 * most - vertices) / instances) {
-        throw InputError(asset.file, fmt::format("/nodes/{}: with its mesh the scene has more than "
-                                                 "{} triangles, or that many vertices thrice",
-                                                 placed.node, most));
+          more_vertices > (3 * most - vertices) / instances || instances > kMostMeshes - meshes) {
+        throw InputError(asset.file,
+                         fmt::format("/nodes/{}: with its mesh the scene has more than "
+                                     "{} triangles, thrice as many vertices or {} meshes",
+                                     placed.node, most, kMostMeshes));
       }
+      meshes += instances;
       triangles += more_triangles * instances;
       vertices += more_vertices * instances;
     }

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -29,27 +28,25 @@ std::vector<int> Parents(const tinygltf::Model& model, FaultList& faults) {
 }
 
 // With one parent each, nodes that no root reaches stand in loops.
-std::vector<int> Roots(const tinygltf::Model& model, const std::vector<int>& parents,
-                       FaultList& faults) {
-  std::vector<int> roots(model.nodes.size(), kNone);
-  for (size_t i = 0; i < model.nodes.size(); ++i) {
-    if (parents[i] != kNone) continue;
-    std::vector<size_t> waiting = {i};
-    while (!waiting.empty()) {
-      const size_t node = waiting.back();
-      waiting.pop_back();
-      roots[node] = static_cast<int>(i);
-      for (const int child : model.nodes[node].children) {
-        // Only where a fault gave a node two parents has it been there before.
-        if (roots[static_cast<size_t>(child)] == kNone)
-          waiting.push_back(static_cast<size_t>(child));
-      }
+void CheckForLoops(const tinygltf::Model& model, const std::vector<int>& parents,
+                   FaultList& faults) {
+  std::vector<bool> is_reached(model.nodes.size(), false);
+  std::vector<size_t> waiting;
+  for (size_t i = 0; i < parents.size(); ++i) {
+    if (parents[i] == kNone) waiting.push_back(i);
+  }
+  while (!waiting.empty()) {
+    const size_t node = waiting.back();
+    waiting.pop_back();
+    if (is_reached[node]) continue;  // Where a fault gave it two parents.
+    is_reached[node] = true;
+    for (const int child : model.nodes[node].children) {
+      waiting.push_back(static_cast<size_t>(child));
     }
   }
-  for (size_t i = 0; i < roots.size(); ++i) {
-    if (roots[i] == kNone) faults.Add(fmt::format("/nodes/{}", i), "is its own ancestor");
+  for (size_t i = 0; i < is_reached.size(); ++i) {
+    if (!is_reached[i]) faults.Add(fmt::format("/nodes/{}", i), "is its own ancestor");
   }
-  return roots;
 }
 
 void CheckTransform(const nlohmann::json& node, const std::string& at, FaultList& faults) {
@@ -87,27 +84,14 @@ void CheckNode(const tinygltf::Model& model, const tinygltf::Node& node, const s
   }
 }
 
-void CheckScene(const tinygltf::Model& model, const tinygltf::Scene& scene,
-                const std::vector<int>& parents, const std::vector<int>& roots,
+void CheckScene(const tinygltf::Scene& scene, const std::vector<int>& parents,
                 const std::string& at, FaultList& faults) {
-  std::vector<bool> is_here(model.nodes.size(), false);
   for (size_t k = 0; k < scene.nodes.size(); ++k) {
-    const auto node = static_cast<size_t>(scene.nodes[k]);
-    is_here[node] = true;
-    if (parents[node] == kNone) continue;
-    faults.Add(
-        fmt::format("{}/nodes/{}", at, k),
-        fmt::format("/nodes/{} is a child of /nodes/{}; scenes name roots", node, parents[node]));
-  }
-  const auto in_scene = [&](size_t node) {
-    return roots[node] != kNone && is_here[static_cast<size_t>(roots[node])];
-  };
-  for (size_t i = 0; i < model.nodes.size(); ++i) {
-    if (model.nodes[i].skin < 0 || !in_scene(i)) continue;
-    const auto& joints = model.skins[static_cast<size_t>(model.nodes[i].skin)].joints;
-    if (std::ranges::all_of(joints, [&](int j) { return in_scene(static_cast<size_t>(j)); }))
-      continue;
-    faults.Add(fmt::format("/nodes/{}/skin", i), fmt::format("its joints are not in {}", at));
+    const int parent = parents[static_cast<size_t>(scene.nodes[k])];
+    if (parent == kNone) continue;
+    faults.Add(fmt::format("{}/nodes/{}", at, k),
+               fmt::format("/nodes/{} is a child of /nodes/{}; scenes name roots", scene.nodes[k],
+                           parent));
   }
 }
 
@@ -115,14 +99,14 @@ void CheckScene(const tinygltf::Model& model, const tinygltf::Scene& scene,
 
 void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, FaultList& faults) {
   const std::vector<int> parents = Parents(model, faults);
-  const std::vector<int> roots = Roots(model, parents, faults);
+  CheckForLoops(model, parents, faults);
   for (size_t i = 0; i < model.nodes.size(); ++i) {
     const std::string at = fmt::format("/nodes/{}", i);
     CheckTransform(root["nodes"][i], at, faults);
     CheckNode(model, model.nodes[i], at, faults);
   }
   for (size_t i = 0; i < model.scenes.size(); ++i) {
-    CheckScene(model, model.scenes[i], parents, roots, fmt::format("/scenes/{}", i), faults);
+    CheckScene(model.scenes[i], parents, fmt::format("/scenes/{}", i), faults);
   }
 }
 

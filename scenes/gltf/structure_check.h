@@ -13,9 +13,9 @@ namespace fenestra::gltf {
 /// `buffer_lengths`, the buffers' stated sizes in bytes.
 
 /// Views within their buffers, accessors within their views, alignment, strides. An accessor
-/// without a view costs memory for nothing: `max_undefined_elements` bounds it.
+/// without a view, all zeros, costs memory for nothing and is bounded.
 void CheckAccessors(const tinygltf::Model& model, const std::vector<uint64_t>& buffer_lengths,
-                    size_t max_undefined_elements, FaultList& faults);
+                    FaultList& faults);
 
 /// Which attributes a primitive has, in which formats, and that they are equally long.
 void CheckMeshes(const tinygltf::Model& model, FaultList& faults);

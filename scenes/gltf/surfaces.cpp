@@ -15,6 +15,9 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
+// Eight joints move a vertex at most; readers need not go beyond four.
+constexpr int kMostJointSets = 2;
+
 std::optional<int> Attribute(const Attributes& attributes, const std::string& name) {
   const auto found = attributes.find(name);
   return found == attributes.end() ? std::nullopt : std::optional(found->second);
@@ -70,12 +73,13 @@ std::vector<glm::vec3> ReadColors(const Asset& asset, int accessor, const std::s
 
 std::vector<JointWeights> ReadJoints(const Asset& asset, const Attributes& attributes) {
   std::vector<JointWeights> sets;
-  for (int set = 0;; ++set) {
+  for (int set = 0; set < kMostJointSets; ++set) {
     const auto joints = Attribute(attributes, fmt::format("JOINTS_{}", set));
     const auto weights = Attribute(attributes, fmt::format("WEIGHTS_{}", set));
-    if (!joints || !weights) return sets;
+    if (!joints || !weights) break;
     sets.push_back({ReadVec4(asset, *joints), ReadVec4(asset, *weights)});
   }
+  return sets;
 }
 
 }  // namespace
@@ -91,7 +95,7 @@ size_t ClaimedTriangles(const Asset& asset, const tinygltf::Primitive& primitive
 }
 
 size_t ClaimedVertices(const Asset& asset, const tinygltf::Primitive& primitive) {
-  return AccessorCount(asset, primitive.attributes.at("POSITION"));
+  return AccessorCount(asset, primitive.attributes.at("POSITION")) * (1 + primitive.targets.size());
 }
 
 Surface ReadSurface(const Asset& asset, const tinygltf::Primitive& primitive,

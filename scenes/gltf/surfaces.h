@@ -28,7 +28,8 @@ struct Surface {
   std::vector<JointWeights> joint_sets;
 };
 
-/// How many triangles and vertices a primitive claims to have; nothing is read for it.
+/// How many triangles and vertices, those of its morph targets too, a primitive claims to have;
+/// nothing is read for it.
 size_t ClaimedTriangles(const Asset& asset, const tinygltf::Primitive& primitive);
 size_t ClaimedVertices(const Asset& asset, const tinygltf::Primitive& primitive);
 

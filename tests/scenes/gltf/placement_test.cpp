@@ -26,7 +26,7 @@ TEST(GltfNodes, TransformsAreComposedFromTheRootDown) {
   const double half = std::sqrt(0.5);
   document["nodes"] = {{{"children", {1}}, {"translation", {10, 0, 0}}},
                        {{"mesh", 0}, {"rotation", {0, 0, half, half}}, {"scale", {2, 3, 1}}}};
-  const auto& p = ReadDocument(document).scene.meshes.at(0).positions_W;
+  const auto p = ReadDocument(document).scene.meshes.at(0).positions_W;
   // (1, 0, 0) is scaled, turned a quarter about z, moved; single precision of 10.
   EXPECT_LT(glm::distance(p[1], glm::vec3(10, 2, 0)), 1e-6f);
   EXPECT_LT(glm::distance(p[2], glm::vec3(7, 0, 0)), 1e-6f);
@@ -57,6 +57,34 @@ TEST(GltfNodes, HiddenSubtreesAreLeftOut) {
       {{"children", {1}}, {"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}},
       {{"mesh", 0}}};
   EXPECT_TRUE(ReadDocument(document).scene.meshes.empty());
+}
+
+// Bound at (1, 0, 0) and turned by a quarter about z since: what was one to its right is now one
+// above the joint, which stands at (5, 0, 0). The skinned node's own place does not count.
+TEST(GltfSkins, VerticesMoveWithTheirJointFromWhereItWasBound) {
+  json document = TriangleDocument();
+  const double half = std::sqrt(0.5);
+  auto& attributes = document["meshes"][0]["primitives"][0]["attributes"];
+  document["buffers"][0]["uri"] = testing::DataUriOf<float>({2, 0, 0, 1, 0, 0, 1, 1, 0});
+  document["buffers"].push_back(
+      {{"byteLength", 12}, {"uri", testing::DataUri(std::vector<uint8_t>(12, 0))}});
+  document["bufferViews"].push_back({{"buffer", 2}, {"byteLength", 12}});
+  document["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5121}, {"count", 3}, {"type", "VEC4"}});
+  attributes["JOINTS_0"] = 2;
+  attributes["WEIGHTS_0"] =
+      testing::AddAccessor(document, "VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  const int bind =
+      testing::AddAccessor(document, "MAT4", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 1});
+  document["skins"] = {{{"joints", {1}}, {"inverseBindMatrices", bind}}};
+  document["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"translation", {100, 100, 100}}},
+                       {{"translation", {5, 0, 0}}, {"rotation", {0, 0, half, half}}}};
+  document["scenes"][0]["nodes"] = {0, 1};
+  const auto p = ReadDocument(document).scene.meshes.at(0).positions_W;
+  constexpr float kSinglePrecision = 1e-6f;  // Of coordinates of about 5.
+  EXPECT_LT(glm::distance(p[0], glm::vec3(5, 1, 0)), kSinglePrecision);
+  EXPECT_LT(glm::distance(p[1], glm::vec3(5, 0, 0)), kSinglePrecision);
+  EXPECT_LT(glm::distance(p[2], glm::vec3(4, 0, 0)), kSinglePrecision);
 }
 
 TEST(GltfCameras, AFieldOfViewBecomesACentredPinhole) {
@@ -153,7 +181,7 @@ TEST(GltfSurfaces, QuantizedPositionsNeedTheirExtension) {
               HasSubstr("attributes/POSITION: /accessors/0 has a type"));
   document["extensionsUsed"] = {"KHR_mesh_quantization"};
   document["extensionsRequired"] = {"KHR_mesh_quantization"};
-  const auto& p = ReadDocument(document).scene.meshes.at(0).positions_W;
+  const auto p = ReadDocument(document).scene.meshes.at(0).positions_W;
   EXPECT_EQ(p[1], glm::vec3(1, 0, 0));
   EXPECT_EQ(p[2], glm::vec3(0, -1, 0));  // -32768 / 32767 is clamped.
 }
