@@ -68,8 +68,10 @@ void AddLight(Table& t) {
               "Above the horizon.")
       .Number("sky_illuminance_lx", FIELD(lighting.sky.illuminance_lx), {0.0, 128e3},
               "Of the sky, on an unobstructed horizontal plane.")
+      .Choice("sky_model", FIELD(lighting.sky.model), {"uniform", "cie_overcast", "cie_clear"},
+              "How the sky's light is spread over it; a clear sky follows the sun's position.")
       .Number("ground_reflectance", FIELD(lighting.sky.ground_reflectance), {0.0, 1.0},
-              "Of the ground, which the sky lights.")
+              "Of the ground, which sky and sun light.")
       .Number("ambient_830nm_ratio", FIELD(lighting.irradiance_830_per_lux),
               {0.0, 100.0, kDaylightIrradiance830PerLux},
               "Infra-red at 830 nm per lux of ambient light, in multiples of daylight's: "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
@@ -13,6 +14,10 @@ namespace fenestra {
 namespace {
 
 using glm::vec3;
+
+// Changes below this part of the largest irradiance are not seen: a sensor's noise is a hundred
+// times that.
+constexpr float kSettled = 1e-5f;
 
 vec3 ToVec3(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -129,7 +134,10 @@ DiffuseLight::PointIrradiances DiffuseLight::Bounced(const PointIrradiances& ope
                                                      const std::vector<Spectrum>& M_0) const {
   PointIrradiances E = open;
   std::vector<Spectrum> M(M_0.size());
-  for (int bounce = 0; bounce < bounces_; ++bounce) {
+  bool settled = false;
+  for (int bounce = 0; bounce < bounces_ && !settled; ++bounce) {
+    float largest = 0.0f;
+    float largest_change = 0.0f;
     for (size_t s = 0; s < M.size(); ++s) {
       const std::array<uint32_t, 3>& corners = bake_.corners[s];
       if (corners[0] == LightBake::kNoPoint) continue;
@@ -141,8 +149,12 @@ DiffuseLight::PointIrradiances DiffuseLight::Bounced(const PointIrradiances& ope
       for (size_t i = bake_.first_factor[p]; i < bake_.first_factor[p + 1]; ++i) {
         sum += bake_.factors[i].w * M[bake_.factors[i].side];
       }
+      const Spectrum change = glm::abs(sum - E[p]);
+      largest = std::max({largest, sum.x, sum.y, sum.z, sum.w});
+      largest_change = std::max({largest_change, change.x, change.y, change.z, change.w});
       E[p] = sum;
     }
+    settled = largest_change <= kSettled * largest;
   }
   return E;
 }

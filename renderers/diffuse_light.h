@@ -16,7 +16,8 @@ namespace fenestra {
 ///
 ///     E = E_open + G (M_0 + ρ Ē),   Ē: mean over a side's corners,
 ///
-/// is iterated `bounces` times from E = E_open. All is linear in each light; each is known for a
+/// is iterated from E = E_open `bounces` times, or until nothing changes any more by 1e-5 of the
+/// largest irradiance. All is linear in each light; each is known for a
 /// unit of it.
 class DiffuseLight {
  public:

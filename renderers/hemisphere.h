@@ -10,7 +10,7 @@ namespace fenestra {
 
 /// The hemisphere about +z is divided into kHemisphereCells x kHemisphereCells compact cells of
 /// equal cosine-weighted solid angle.
-inline constexpr int kHemisphereCells = 32;
+inline constexpr int kHemisphereCells = 24;
 
 /// Rays of a packet form a square of cells, or of parts of one cell.
 inline constexpr int kDirectionSquare = 4;
