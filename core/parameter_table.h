@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -101,6 +103,27 @@ class ParameterTable {
         [field](const Settings& s) { return ParameterValue(field(const_cast<Settings&>(s))); },
         [field](Settings& s, const ParameterValue& value) {
           field(s) = std::get<std::string>(value);
+        });
+  }
+
+  /// A choice whose field is an enumeration: its enumerators, from 0, are called `choices`.
+  template <typename Field>
+  requires std::is_enum_v<std::remove_reference_t<std::invoke_result_t<Field, Settings&>>>
+      ParameterTable& Choice(const std::string& name, Field field, std::vector<std::string> choices,
+                             const std::string& description) {
+    using Enumeration = std::remove_reference_t<std::invoke_result_t<Field, Settings&>>;
+    return Add(
+        {.name = name,
+         .description = description,
+         .type = ParameterInfo::Type::kChoice,
+         .choices = choices},
+        [field, choices](const Settings& s) {
+          return ParameterValue(choices.at(static_cast<size_t>(field(const_cast<Settings&>(s)))));
+        },
+        [field, choices](Settings& s, const ParameterValue& value) {
+          const auto found =
+              std::find(choices.begin(), choices.end(), std::get<std::string>(value));
+          field(s) = static_cast<Enumeration>(found - choices.begin());
         });
   }
 

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "experiments/scoring.h"
+#include "experiments/trial_scene.h"
 
 namespace fenestra {
 namespace {
@@ -12,11 +13,6 @@ SensorCalibration NominalOf(const StereoRig& rig) {
 }
 SensorCalibration NominalOf(const StructuredLightSensor& sensor) {
   return sensor.nominal();
-}
-
-Pose RigPoseOf(const TrialSettings& settings, const Scene& scene) {
-  // Without a window the rig looks at the place where it would be: the world's origin.
-  return RigPose(settings.viewpoint, scene.target ? scene.target->X_WO : Pose());
 }
 
 }  // namespace
@@ -119,7 +115,8 @@ TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {
     const StereoRig::TrueState state = rig->Draw(simulated.trial.stream.Child("rig"));
     return rig->LeftTruth(world->caster, settings.lighting, X_WB, state);
   }
-  return std::get<StructuredLightSensor>(*sensor).DepthTruth(world->caster, settings.lighting, X_WB);
+  return std::get<StructuredLightSensor>(*sensor).DepthTruth(world->caster, settings.lighting,
+                                                             X_WB);
 }
 
 }  // namespace fenestra

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "experiments/facade_factors.h"
 
 namespace fenestra {
 namespace {
@@ -36,39 +37,25 @@ void AddViewpoint(Table& t) {
 void AddScene(Table& t) {
   t.Choice("scene", FIELD(scene), {kPaperTargetScene, kFacadeScene},
            "A black square painted on a wall, or a wall with a real window.")
-      .Switch("target", FIELD(window.with_target), "Whether there is a window to find.")
-      .Number("window_width_m", FIELD(window.width_m), {0.05, 20.0}, "Outer width of the frame.")
-      .Number("window_height_m", FIELD(window.height_m), {0.05, 20.0}, "Outer height of the frame.")
-      .Number("frame_width_m", FIELD(window.frame_width_m), {0.001, 5.0},
+      .Switch("target", FIELD(facade.with_target), "Whether there is a window to find.")
+      .Number("window_width_m", FIELD(facade.window.width_m), {0.05, 20.0},
+              "Outer width of the frame.")
+      .Number("window_height_m", FIELD(facade.window.height_m), {0.05, 20.0},
+              "Outer height of the frame.")
+      .Number("frame_width_m", FIELD(facade.window.frame_width_m), {0.001, 5.0},
               "Width of the frame or of the painted border, seen from the front.")
-      .Number("wall_width_m", FIELD(window.wall_width_m), {0.1, 200.0},
+      .Number("wall_width_m", FIELD(facade.wall.width_m), {0.1, 200.0},
               "The wall is centred on the window.")
-      .Number("wall_height_m", FIELD(window.wall_height_m), {0.1, 200.0},
+      .Number("wall_height_m", FIELD(facade.wall.height_m), {0.1, 200.0},
               "The wall is centred on the window.")
-      .Number("wall_reflectance", FIELD(window.wall_reflectance), {0.0, 1.0},
+      .Number("wall_reflectance", FIELD(facade.wall.paint.reflectance), {0.0, 1.0},
               "Of the wall, in visible light.")
-      .Number("wall_reflectance_830nm", FIELD(window.wall_reflectance_830nm), {0.0, 1.0},
+      .Number("wall_reflectance_830nm", FIELD(facade.wall.paint.reflectance_830nm), {0.0, 1.0},
               "Of the wall, in the projector's infra-red.")
-      .Number("frame_reflectance", FIELD(window.frame_reflectance), {0.0, 1.0},
+      .Number("frame_reflectance", FIELD(facade.window.frame.reflectance), {0.0, 1.0},
               "Of the frame, in visible light.")
-      .Number("frame_reflectance_830nm", FIELD(window.frame_reflectance_830nm), {0.0, 1.0},
+      .Number("frame_reflectance_830nm", FIELD(facade.window.frame.reflectance_830nm), {0.0, 1.0},
               "Of the frame, in the projector's infra-red.");
-}
-
-void AddFacade(Table& t) {
-  t.Number("frame_depth_m", FIELD(window.frame_depth_m), {0.001, 1.0},
-           "Of the frame, along the wall's normal.")
-      .Number("frame_setback_m", FIELD(window.frame_setback_m), {0.0, 1.0},
-              "Front of the frame behind the wall's outer face.")
-      .Number("wall_thickness_m", FIELD(window.wall_thickness_m), {0.01, 2.0},
-              "Of the wall, which is the depth of the reveal.")
-      .Number("room_depth_m", FIELD(window.room_depth_m), {0.1, 50.0},
-              "Of the room behind the window.")
-      .Switch("glass", FIELD(window.glass), "Whether the window has a pane.")
-      .Number("room_reflectance", FIELD(window.room_reflectance), {0.0, 1.0},
-              "Of the room's surfaces, in visible light.")
-      .Number("room_reflectance_830nm", FIELD(window.room_reflectance_830nm), {0.0, 1.0},
-              "Of the room's surfaces, in the projector's infra-red.");
 }
 
 void AddLight(Table& t) {
@@ -224,7 +211,7 @@ const GroupedTable& AllFactors() {
     GroupedTable factors;
     factors.Add(FactorGroup::kViewpoint, AddViewpoint);
     factors.Add(FactorGroup::kScene, AddScene);
-    factors.Add(FactorGroup::kFacade, AddFacade);
+    factors.Add(FactorGroup::kFacade, AddFacadeFactors);
     factors.Add(FactorGroup::kLight, AddLight);
     factors.Add(FactorGroup::kStereo, AddStereoCameras);
     factors.Add(FactorGroup::kStereo, AddStereoImages);

@@ -96,7 +96,8 @@ constexpr char kAttemptLegend[] =
 constexpr char kEmptySceneLegend[] =
     "empty: scenes without a window = alarms (a window reported) + clear + crash(ed) there.\n";
 constexpr char kTimeLegend[] =
-    "time: median of the detector's total in ms, and by stage the median over the cells with hits of\n"
+    "time: median of the detector's total in ms, and by stage the median over the cells with hits "
+    "of\n"
     "their medians. —: no such figure.\n";
 
 }  // namespace

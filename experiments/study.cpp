@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "core/check.h"
+#include "core/input_error.h"
 
 namespace fenestra {
 namespace {
@@ -111,6 +114,15 @@ std::vector<Cell> Cells(const Study& study) {
     }
   }
   return cells;
+}
+
+Cell CellOf(const Study& study, int index) {
+  std::vector<Cell> cells = Cells(study);
+  if (index < 0 || index >= static_cast<int>(cells.size())) {
+    throw InputError("--cell", fmt::format("{} is not a cell of '{}': 0 to {}", index, study.name,
+                                           cells.size() - 1));
+  }
+  return std::move(cells[static_cast<size_t>(index)]);
 }
 
 int64_t CountCells(const Study& study) {

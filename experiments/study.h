@@ -83,6 +83,9 @@ struct Cell {
 /// in which the factors stand, the last one running fastest.
 std::vector<Cell> Cells(const Study& study);
 
+/// One of them. Throws InputError unless the index is in range.
+Cell CellOf(const Study& study, int index);
+
 /// How many cells and trials the study has, without making them. At most 10^18 each, however large
 /// the grid is.
 int64_t CountCells(const Study& study);

@@ -7,23 +7,13 @@
 #include "core/atomic_file.h"
 #include "core/calibration_io.h"
 #include "core/image_io.h"
-#include "experiments/geometry_json.h"
 #include "experiments/pcd.h"
 #include "experiments/trial_drawing.h"
 #include "experiments/truth_exr.h"
+#include "experiments/truth_json.h"
 
 namespace fenestra {
 namespace {
-
-using nlohmann::ordered_json;
-
-ordered_json WindowJson(const WindowTruth& window) {
-  return {{"centroid_m", ToJson(window.p_CO)},
-          {"corners_m", ToJson(window.p_CV)},
-          {"normal", ToJson(window.normal_C)},
-          {"width_m", window.width_m},
-          {"height_m", window.height_m}};
-}
 
 std::vector<Eigen::Vector3f> CloudOf(const cv::Mat1f& depth_m, const CameraModel& camera) {
   std::vector<Eigen::Vector3f> points;
@@ -108,19 +98,6 @@ void WriteObservation(const std::filesystem::path& folder, const Observation& ob
   }
 }
 
-std::string TruthJson(const SimulatedTrial& simulated) {
-  const GroundTruth& truth = simulated.truth;
-  const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
-  ordered_json json = {{stereo ? "world_from_left" : "world_from_depth", ToJson(truth.X_WC)},
-                       {"target_in_view", truth.in_view},
-                       {"target", truth.target ? WindowJson(*truth.target) : ordered_json()},
-                       {"other_windows", ordered_json::array()}};
-  for (const WindowTruth& window : truth.other_windows) {
-    json["other_windows"].push_back(WindowJson(window));
-  }
-  return json.dump(2) + "\n";
-}
-
 void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench,
                      const SimulatedTrial& simulated) {
   WriteObservation(folder, simulated.observation, simulated.calibration);
@@ -131,7 +108,7 @@ void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench
   const std::filesystem::path truth = folder / "truth";
   const TruthImages images = bench.TruthOf(simulated);
   const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
-  WriteFileAtomically(truth / "truth.json", TruthJson(simulated));
+  WriteFileAtomically(truth / "truth.json", TruthJson(simulated.truth, stereo ? "left" : "depth"));
   WriteTruthExr(truth / "truth.exr", images, stereo ? "right" : "projector");
   WriteFileAtomically(truth / "cloud.pcd", ToPcd(CloudOf(images.aovs.depth_m, images.camera)));
   WriteFileAtomically(truth / "trial.yaml", FactorYaml(simulated.trial.settings));

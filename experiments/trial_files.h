@@ -40,7 +40,4 @@ void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench
 void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
                       const SensorCalibration& calibration);
 
-/// The truth of a trial as JSON.
-std::string TruthJson(const SimulatedTrial& simulated);
-
 }  // namespace fenestra

@@ -22,7 +22,7 @@ struct TrialSettings {
   std::string scene = kPaperTargetScene;  ///< kPaperTargetScene or kFacadeScene.
   /// The window and the wall around it, for both kinds of scene: all that the painted target has,
   /// a facade has too.
-  FacadeOptions window;
+  FacadeOptions facade;
   Lighting lighting;
   Viewpoint viewpoint;
   StereoRigOptions stereo;

@@ -40,7 +40,7 @@ Lighting Daylight() {
 enum SceneName : int { kPaperTarget, kFacade };
 
 Scene MakeScene(int64_t name) {
-  return name == kPaperTarget ? MakePaperTarget({}) : MakeFacade({.frame_setback_m = 0.1});
+  return name == kPaperTarget ? MakePaperTarget({}) : MakeFacade({.window = {.setback_m = 0.1}});
 }
 
 constexpr int kSamples = 4;

@@ -1,177 +1,163 @@
 #include "scenes/facade.h"
 
 #include <algorithm>
-#include <cmath>
+#include <bit>
+#include <numbers>
+#include <utility>
 
-#include "scenes/size_checks.h"
-#include "scenes/solid_lattice.h"
+#include "scenes/facade_blind.h"
+#include "scenes/facade_glazing.h"
+#include "scenes/facade_pipework.h"
+#include "scenes/facade_plan.h"
+#include "scenes/facade_plant.h"
+#include "scenes/facade_shutters.h"
+#include "scenes/masonry.h"
+#include "scenes/wall_texture.h"
 
 namespace fenestra {
 namespace {
 
-using Eigen::Vector3d;
+constexpr double kLampBelowCeiling_m = 0.2;
 
-constexpr SolidLattice::Solid kWall = 1;
-constexpr SolidLattice::Solid kFrame = 2;
-constexpr SolidLattice::Solid kRoom = 3;
+// Puts a facade together, mesh by mesh.
+class FacadeBuilder {
+ public:
+  FacadeBuilder(const FacadeOptions& options, const FacadePlan& plan, const RandomStream& random)
+      : options_(options), plan_(plan), random_(random) {}
 
-// The room: a sill at the usual 0.9 m above the floor, a lintel, and space to both sides, as far as
-// the wall is large enough. Behind its surfaces is at least this much masonry.
-constexpr double kSill_m = 0.9;
-constexpr double kLintel_m = 0.6;
-constexpr double kBeside_m = 1.5;
-constexpr double kMasonry_m = 0.1;
-// The pane stands this deep in the frame, so that no light passes at its edge.
-constexpr double kRebate_m = 0.005;
-
-// Light varies fastest where reveal, frame and wall meet. Cells of at most 5 cm there, growing with
-// the distance, keep the error of linear interpolation about that of the baked light itself.
-constexpr double kFinestCell_m = 0.05;
-constexpr double kCellGrowth = 0.5;
-constexpr double kLargestCell_m = 1.0;
-
-double CellSize(double distance_m) {
-  return std::min(kFinestCell_m + kCellGrowth * distance_m, kLargestCell_m);
-}
-
-void Check(const FacadeOptions& o) {
-  SizeChecks checks("facade");
-  checks.Positive("width_m", o.width_m);
-  checks.Positive("height_m", o.height_m);
-  checks.Positive("frame_width_m", o.frame_width_m);
-  checks.Positive("frame_depth_m", o.frame_depth_m);
-  checks.Positive("wall_thickness_m", o.wall_thickness_m);
-  checks.Positive("room_depth_m", o.room_depth_m);
-  checks.Positive("wall_width_m", o.wall_width_m);
-  checks.Positive("wall_height_m", o.wall_height_m);
-  checks.Demand(std::isfinite(o.frame_setback_m) && o.frame_setback_m >= 0.0,
-                fmt::format("frame_setback_m must be 0 or more, not {}", o.frame_setback_m));
-  checks.Demand(!(2.0 * o.frame_width_m >= std::min(o.width_m, o.height_m)),
-                fmt::format("two sides of a frame of {} m do not fit into {} m x {} m",
-                            o.frame_width_m, o.width_m, o.height_m));
-  checks.Demand(!(o.frame_setback_m + o.frame_depth_m > o.wall_thickness_m),
-                fmt::format("a frame {} m deep, set back by {} m, does not fit into a wall of {} m",
-                            o.frame_depth_m, o.frame_setback_m, o.wall_thickness_m));
-  checks.Demand(!(o.width_m + 2.0 * kMasonry_m > o.wall_width_m ||
-                  o.height_m + 2.0 * kMasonry_m > o.wall_height_m),
-                fmt::format("a window of {} m x {} m needs {} m of wall around it, but the wall is "
-                            "{} m x {} m",
-                            o.width_m, o.height_m, kMasonry_m, o.wall_width_m, o.wall_height_m));
-  checks.Reflectance("wall_reflectance", o.wall_reflectance);
-  checks.Reflectance("wall_reflectance_830nm", o.wall_reflectance_830nm);
-  checks.Reflectance("frame_reflectance", o.frame_reflectance);
-  checks.Reflectance("frame_reflectance_830nm", o.frame_reflectance_830nm);
-  checks.Reflectance("room_reflectance", o.room_reflectance);
-  checks.Reflectance("room_reflectance_830nm", o.room_reflectance_830nm);
-  checks.ThrowIfFaulty();
-}
-
-// All boxes of the building. z = 0 is the wall's outer face.
-struct Plan {
-  Box building;
-  Box room;
-  Box room_shell;
-  Box opening;
-  Box frame;
-  Box frame_hole;
-};
-
-Plan MakePlan(const FacadeOptions& o) {
-  const double x = 0.5 * o.width_m;
-  const double y = 0.5 * o.height_m;
-  const double room_x = std::min(x + kBeside_m, 0.5 * o.wall_width_m - kMasonry_m);
-  const double floor_y = std::max(-y - kSill_m, -0.5 * o.wall_height_m + kMasonry_m);
-  const double ceiling_y = std::min(y + kLintel_m, 0.5 * o.wall_height_m - kMasonry_m);
-  const double room_front_z = -o.wall_thickness_m;
-  const double room_back_z = room_front_z - o.room_depth_m;
-  const double frame_front_z = -o.frame_setback_m;
-  const double frame_back_z = frame_front_z - o.frame_depth_m;
-  const Vector3d masonry = Vector3d::Constant(kMasonry_m);
-  Plan plan;
-  plan.room = {{-room_x, floor_y, room_back_z}, {room_x, ceiling_y, room_front_z}};
-  plan.room_shell = {plan.room.low - masonry,
-                     {room_x + kMasonry_m, ceiling_y + kMasonry_m, room_front_z}};
-  plan.building = {{-0.5 * o.wall_width_m, -0.5 * o.wall_height_m, room_back_z - kMasonry_m},
-                   {0.5 * o.wall_width_m, 0.5 * o.wall_height_m, 0.0}};
-  plan.opening = {{-x, -y, room_front_z}, {x, y, 0.0}};
-  plan.frame = {{-x, -y, frame_back_z}, {x, y, frame_front_z}};
-  const Vector3d bar(o.frame_width_m, o.frame_width_m, 0.0);
-  plan.frame_hole = {plan.frame.low + bar, plan.frame.high - bar};
-  return plan;
-}
-
-SolidLattice MakeLattice(const Plan& plan) {
-  std::array<std::vector<float>, 3> breaks;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> fixed;
-    for (const Box& box :
-         {plan.building, plan.room, plan.room_shell, plan.opening, plan.frame, plan.frame_hole}) {
-      fixed.push_back(box.low[axis]);
-      fixed.push_back(box.high[axis]);
+  Scene Build() {
+    AddMasonry();
+    if (options_.window.glass) AddGlass();
+    AddBeforeWall();
+    AddBlinds();
+    if (Target() != nullptr && options_.plant.coverage > 0.0) {
+      Add(MakePlant(options_, *Target(), random_.Child("plant"), 0), options_.plant.paint);
     }
-    const double low = plan.opening.low[axis];
-    const double high = plan.opening.high[axis];
-    const auto cell_size = [low, high, axis](double at) {
-      // Along x and y the light changes at the opening's edges; along z in all of its depth.
-      const double outside = std::max(low - at, at - high);
-      return CellSize(axis == 2 ? std::max(outside, 0.0) : std::abs(outside));
-    };
-    breaks[static_cast<size_t>(axis)] = GradedBreaks(fixed, cell_size);
+    for (const WindowPlan& window : plan_.windows) AddWindow(window);
+    return std::move(scene_);
   }
-  return SolidLattice(std::move(breaks));
-}
 
-Mesh MakePane(const FacadeOptions& o, uint32_t material) {
-  const auto x = static_cast<float>(0.5 * o.width_m - o.frame_width_m + kRebate_m);
-  const auto y = static_cast<float>(0.5 * o.height_m - o.frame_width_m + kRebate_m);
-  const auto z = static_cast<float>(-o.frame_setback_m - 0.5 * o.frame_depth_m);
-  return {.name = "pane",
-          .positions_W = {{-x, -y, z}, {x, -y, z}, {x, y, z}, {-x, y, z}},
-          .triangles = {{0, 1, 2}, {0, 2, 3}},
-          .material = material};
-}
+ private:
+  const WindowPlan* Target() const {
+    return options_.with_target ? &plan_.windows.front() : nullptr;
+  }
 
-Material Paint(const char* name, double reflectance, double reflectance_830nm) {
-  return {.name = name,
-          .reflectance_rgb = glm::vec3(static_cast<float>(reflectance)),
-          .reflectance_830nm = static_cast<float>(reflectance_830nm)};
-}
+  void Add(Mesh mesh, Material material) {
+    if (mesh.triangles.empty()) return;
+    mesh.material = static_cast<uint32_t>(scene_.materials.size());
+    material.name = mesh.name;
+    scene_.materials.push_back(std::move(material));
+    scene_.meshes.push_back(std::move(mesh));
+  }
+
+  void Add(Mesh mesh, const Paint& paint) {
+    const Material material = MaterialOf(mesh.name, paint);
+    Add(std::move(mesh), material);
+  }
+
+  void AddMasonry() {
+    const SolidSurface surface = BuildMasonry(options_, plan_);
+    AddWall(MeshOf(surface, kWallSolid, "wall", 0));
+    const auto add = [&](Solid solid, const char* name, const Paint& paint) {
+      Add(MeshOf(surface, solid, name, 0), paint);
+    };
+    add(kFrameSolid, "frame", options_.window.frame);
+    add(kRoomSolid, "room", options_.room.paint);
+    add(kSillSolid, "sill", options_.sill.paint);
+    add(kLintelSolid, "lintel", options_.lintel.paint);
+    add(kOtherFrameSolid, "other frame", options_.grid.other_frame);
+    add(kOtherRoomSolid, "other room", options_.room.paint);
+  }
+
+  void AddWall(Mesh wall) {
+    if (options_.wall.texture_contrast == 0.0) {
+      Add(std::move(wall), options_.wall.paint);
+      return;
+    }
+    const RandomStream random = random_.Child("wall");
+    TexturedWall textured = MakeTexturedWall(options_.wall, random);
+    const RandomStream shift = random.Child("shift");
+    LayTexture(textured.side_m, {shift.Uniform(0), shift.Uniform(1)}, wall);
+    scene_.textures.push_back(std::move(textured.texture));
+    Add(std::move(wall), textured.material);
+  }
+
+  void AddGlass() {
+    Mesh pane{.name = "pane"};
+    Mesh others{.name = "other panes"};
+    for (const WindowPlan& window : plan_.windows) {
+      AddPanes(options_.window, window, window.is_target ? pane : others);
+    }
+    const Material glass{.name = "glass", .kind = Material::Kind::kGlass};
+    Add(std::move(pane), glass);
+    Add(std::move(others), glass);
+  }
+
+  void AddBeforeWall() {
+    const FacadeOptions& o = options_;
+    if (o.shutters.present) Add(MakeShutters(o, plan_, 0), o.shutters.paint);
+    if (o.drainpipe.present) Add(MakeDrainpipe(o, 0), o.drainpipe.paint);
+    if (o.cables.count > 0) Add(MakeCables(o, random_.Child("cables"), 0), o.cables.paint);
+    if (o.railing.present && Target() != nullptr) {
+      Add(MakeRailing(o, *Target(), 0), o.railing.paint);
+    }
+  }
+
+  void AddBlinds() {
+    if (options_.blind.coverage == 0.0) return;
+    Mesh blind{.name = "blind", .closed = true};
+    Mesh others{.name = "other blinds", .closed = true};
+    for (const WindowPlan& window : plan_.windows) {
+      const double coverage =
+          window.is_target ? options_.blind.coverage : window.random.Child("blind").Uniform(0);
+      AddBlind(options_, window, coverage, window.is_target ? blind : others);
+    }
+    Add(std::move(blind), options_.blind.paint);
+    Add(std::move(others), options_.blind.paint);
+  }
+
+  void AddWindow(const WindowPlan& window) {
+    const TargetWindow truth{.X_WO = Pose::Translation(window.p_WO),
+                             .width_m = options_.window.width_m,
+                             .height_m = options_.window.height_m};
+    if (window.is_target) {
+      scene_.target = truth;
+    } else {
+      scene_.other_windows.push_back(truth);
+    }
+    const RoomOptions& room = options_.room;
+    const double flux_lm = window.is_target ? room.lamp_lm : room.other_lamps_lm;
+    if (flux_lm > 0.0) scene_.lamps.push_back(LampOf(window.room, flux_lm));
+  }
+
+  // A flat ceiling lamp: in a cone as wide as the half space below, I(θ) = I cos² θ, whose flux is
+  // Φ = 2π ∫ I cos² θ sin θ dθ = 2π I / 3.
+  Lamp LampOf(const Box& room, double flux_lm) const {
+    const Eigen::Vector3d centre = 0.5 * (room.low + room.high);
+    const double drop_m = std::min(kLampBelowCeiling_m, 0.1 * (room.high.y() - room.low.y()));
+    const double intensity_cd = 1.5 * flux_lm / std::numbers::pi;
+    return {.name = "ceiling lamp",
+            .p_WL = {centre.x(), room.high.y() - drop_m, centre.z()},
+            .intensity_rgb = glm::vec3(static_cast<float>(intensity_cd)),
+            .irradiance_830_per_lux = options_.room.lamp_irradiance_830_per_lux,
+            .cone = Lamp::Cone{.axis_W = -Eigen::Vector3d::UnitY(),
+                               .inner_rad = 0.0,
+                               .outer_rad = 0.5 * std::numbers::pi}};
+  }
+
+  const FacadeOptions& options_;
+  const FacadePlan& plan_;
+  RandomStream random_;
+  Scene scene_;
+};
 
 }  // namespace
 
 Scene MakeFacade(const FacadeOptions& options) {
-  Check(options);
-  const FacadeOptions& o = options;
-  const Plan plan = MakePlan(o);
-  SolidLattice lattice = MakeLattice(plan);
-  lattice.Fill(plan.building, kWall);
-  // Nobody who sees the facade's front sees the building's other outer faces.
-  constexpr auto kSeen = SolidLattice::Faces::kFrontOfLattice;
-  Scene scene;
-  scene.materials.push_back(Paint("wall", o.wall_reflectance, o.wall_reflectance_830nm));
-  if (!o.with_target) {
-    scene.meshes.push_back(lattice.Surface(kWall, kSeen, "wall", 0));
-    return scene;
-  }
-  lattice.Fill(plan.room_shell, kRoom);
-  lattice.Fill(plan.room, SolidLattice::kAir);
-  lattice.Fill(plan.opening, SolidLattice::kAir);
-  lattice.Fill(plan.frame, kFrame);
-  lattice.Fill(plan.frame_hole, SolidLattice::kAir);
-
-  scene.materials.push_back(Paint("frame", o.frame_reflectance, o.frame_reflectance_830nm));
-  scene.materials.push_back(Paint("room", o.room_reflectance, o.room_reflectance_830nm));
-  scene.meshes.push_back(lattice.Surface(kWall, kSeen, "wall", 0));
-  scene.meshes.push_back(lattice.Surface(kFrame, kSeen, "frame", 1));
-  scene.meshes.push_back(lattice.Surface(kRoom, kSeen, "room", 2));
-  if (o.glass) {
-    scene.materials.push_back({.name = "glass", .kind = Material::Kind::kGlass});
-    scene.meshes.push_back(MakePane(o, 3));
-  }
-  scene.target = {.X_WO = Pose::Translation({0.0, 0.0, -o.frame_setback_m}),
-                  .width_m = o.width_m,
-                  .height_m = o.height_m};
-  return scene;
+  Validate(options);
+  const RandomStream random(std::bit_cast<uint64_t>(options.seed));
+  const FacadePlan plan = PlanFacade(options, random);
+  return FacadeBuilder(options, plan, random).Build();
 }
 
 }  // namespace fenestra

@@ -1,19 +1,17 @@
 #include "scenes/paper_target.h"
 
 #include <algorithm>
-#include <limits>
 
+#include "scenes/paint.h"
 #include "scenes/size_checks.h"
 #include "scenes/solid_lattice.h"
 
 namespace fenestra {
 namespace {
 
-constexpr SolidLattice::Solid kWall = 1;
-constexpr SolidLattice::Solid kBorder = 2;
+constexpr Solid kWall = 1;
+constexpr Solid kBorder = 2;
 
-// Nothing stands before the plane, so its sky light is uniform and the largest cells do.
-constexpr double kCell_m = std::numeric_limits<double>::infinity();
 // Only the front of this plate becomes surface.
 constexpr double kPlate_m = 1.0;
 
@@ -44,15 +42,9 @@ Box Plate(double width_m, double height_m) {
 
 std::vector<float> Breaks(double wall_m, double target_m, double border_m) {
   const double inner_m = 0.5 * target_m - border_m;
-  return GradedBreaks(
-      {-0.5 * wall_m, -0.5 * target_m, -inner_m, inner_m, 0.5 * target_m, 0.5 * wall_m},
-      [](double) { return kCell_m; });
-}
-
-Material Paint(const char* name, double reflectance, double reflectance_830nm) {
-  return {.name = name,
-          .reflectance_rgb = glm::vec3(static_cast<float>(reflectance)),
-          .reflectance_830nm = static_cast<float>(reflectance_830nm)};
+  // Nothing stands before the plane, so its sky light is uniform and the largest cells do.
+  return DistinctBreaks(
+      {-0.5 * wall_m, -0.5 * target_m, -inner_m, inner_m, 0.5 * target_m, 0.5 * wall_m});
 }
 
 }  // namespace
@@ -66,16 +58,17 @@ Scene MakePaperTarget(const PaperTargetOptions& options) {
   lattice.Fill(Plate(o.wall_width_m, o.wall_height_m), kWall);
 
   Scene scene;
-  scene.materials.push_back(Paint("wall", o.wall_reflectance, o.wall_reflectance_830nm));
+  scene.materials.push_back(MaterialOf("wall", {o.wall_reflectance, o.wall_reflectance_830nm}));
   if (o.with_target) {
     lattice.Fill(Plate(o.width_m, o.height_m), kBorder);
     lattice.Fill(Plate(o.width_m - 2.0 * o.border_m, o.height_m - 2.0 * o.border_m), kWall);
-    scene.materials.push_back(Paint("border", o.frame_reflectance, o.frame_reflectance_830nm));
+    scene.materials.push_back(
+        MaterialOf("border", {o.frame_reflectance, o.frame_reflectance_830nm}));
     scene.target = {.X_WO = Pose(), .width_m = o.width_m, .height_m = o.height_m};
   }
-  constexpr auto kFront = SolidLattice::Faces::kFrontOfLattice;
-  scene.meshes.push_back(lattice.Surface(kWall, kFront, "wall", 0));
-  if (o.with_target) scene.meshes.push_back(lattice.Surface(kBorder, kFront, "border", 1));
+  const SolidSurface surface = lattice.Surface(SolidLattice::Faces::kFrontOfLattice);
+  scene.meshes.push_back(MeshOf(surface, kWall, "wall", 0));
+  if (o.with_target) scene.meshes.push_back(MeshOf(surface, kBorder, "border", 1));
   return scene;
 }
 

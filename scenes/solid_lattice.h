@@ -16,9 +16,30 @@ struct Box {
   Eigen::Vector3d high;
 };
 
-/// Sorted coordinates from the first to the last of `fixed`, which are all kept; each gap is halved
-/// until its cells are not longer than `cell_size` at their middle. Metres.
-std::vector<float> GradedBreaks(std::vector<double> fixed,
+/// One of several solids of which a building is made; 0 is air.
+using Solid = uint8_t;
+inline constexpr Solid kAir = 0;
+
+/// The surface between solids and air. Positions are shared by all triangles that meet in them, of
+/// all solids, so that what is done to an edge is done to all its triangles.
+struct SolidSurface {
+  struct Triangle {
+    glm::uvec3 corners;  ///< Counter-clockwise as seen from the air.
+    Solid solid;
+    uint8_t facing;  ///< 0 to 5: -x, +x, -y, +y, -z, +z.
+  };
+  std::vector<glm::vec3> positions_W;
+  std::vector<Triangle> triangles;
+};
+
+/// The triangles of one solid. Vertices are shared only between faces that look one way.
+Mesh MeshOf(const SolidSurface& surface, Solid solid, const std::string& name, uint32_t material);
+
+/// Sorted coordinates without near duplicates: two of them less than a micrometre apart are one.
+std::vector<float> DistinctBreaks(std::vector<double> coordinates_m);
+
+/// The same, with each gap halved until its cells are not longer than `cell_size` at their middle.
+std::vector<float> GradedBreaks(std::vector<double> fixed_m,
                                 const std::function<double(double)>& cell_size);
 
 /// Buildings from blocks: a rectilinear lattice whose cells are air or one of several solids.
@@ -27,9 +48,6 @@ std::vector<float> GradedBreaks(std::vector<double> fixed,
 /// the lattice is air.
 class SolidLattice {
  public:
-  using Solid = uint8_t;
-  static constexpr Solid kAir = 0;
-
   /// Break coordinates along x, y and z, ascending, at least two each.
   explicit SolidLattice(std::array<std::vector<float>, 3> breaks_m);
 
@@ -41,9 +59,13 @@ class SolidLattice {
     kFrontOfLattice,  ///< Without the faces on the lattice's own border, but for that at +z.
   };
 
-  /// The faces between `solid` and air. Triangles wind counter-clockwise as seen from the air;
-  /// vertices are shared only between faces of one plane.
-  Mesh Surface(Solid solid, Faces faces, const std::string& name, uint32_t material) const;
+  /// The faces between solids and air.
+  SolidSurface Surface(Faces faces) const;
+
+  /// The faces between one solid and air.
+  Mesh Surface(Solid solid, Faces faces, const std::string& name, uint32_t material) const {
+    return MeshOf(Surface(faces), solid, name, material);
+  }
 
  private:
   using Cell = std::array<int, 3>;

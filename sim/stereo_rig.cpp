@@ -100,6 +100,10 @@ StereoRig::StereoRig(const StereoRigOptions& options)
       rays_(nominal_.left),
       vignetting_(NaturalVignetting(rays_)) {}
 
+StereoRig::TrueState StereoRig::Nominal() const {
+  return {.X_BL = NominalLeft(options_.baseline_m), .X_BR = NominalRight(options_.baseline_m)};
+}
+
 StereoRig::TrueState StereoRig::Draw(const RandomStream& rig) const {
   const Eigen::Vector3d rotation =
       NormalVector(rig.Child("right_rotation"), options_.rotation_tolerance_rad);

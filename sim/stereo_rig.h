@@ -50,6 +50,8 @@ class StereoRig {
     Pose X_BR;
   };
   TrueState Draw(const RandomStream& rig) const;
+  /// A rig that is as detectors are told.
+  TrueState Nominal() const;
 
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const TrueState& state, const RandomStream& shot) const;

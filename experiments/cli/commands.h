@@ -16,6 +16,7 @@ enum ExitCode : int {
 /// leaves the program's exit code in `exit_code`.
 void AddRunCommand(CLI::App& program, int& exit_code);
 void AddRenderCommand(CLI::App& program, int& exit_code);
+void AddExportCommand(CLI::App& program, int& exit_code);
 void AddReplayCommand(CLI::App& program, int& exit_code);
 void AddDetectCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);

@@ -85,6 +85,7 @@ int Main(int argc, char** argv) {
   int exit_code = kDone;
   AddRunCommand(program, exit_code);
   AddRenderCommand(program, exit_code);
+  AddExportCommand(program, exit_code);
   AddReplayCommand(program, exit_code);
   AddDetectCommand(program, exit_code);
   AddListCommand(program, exit_code);

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <numbers>
 
 #include "core/input_error.h"
 #include "experiments/cell_bench.h"
 #include "experiments/cli/commands.h"
+#include "experiments/scene_files.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
 #include "experiments/trial_files.h"
@@ -13,47 +15,113 @@
 namespace fenestra::cli {
 namespace {
 
+constexpr double kDegree = std::numbers::pi / 180.0;
+
 struct RenderArguments {
-  std::string study;
+  std::string what;
   int cell = 0;
   int trial = 0;
   std::filesystem::path out;
+
+  std::optional<std::string> target;
+  SceneViewOptions view;
+  Sky::Model sky_model = Sky::Model::kUniform;
+  double sky_lx = 10e3;
+  std::optional<double> sun_lx;
+  std::optional<double> sun_azimuth_deg;
+  std::optional<double> sun_elevation_deg;
 };
 
-void Render(const RenderArguments& arguments) {
-  const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
-  const std::vector<Cell> cells = Cells(study);
-  if (arguments.cell < 0 || arguments.cell >= static_cast<int>(cells.size())) {
-    throw InputError("--cell", fmt::format("{} is not a cell of '{}': 0 to {}", arguments.cell,
-                                           study.name, cells.size() - 1));
-  }
+bool IsSceneFile(const std::filesystem::path& file) {
+  return file.extension() == ".gltf" || file.extension() == ".glb";
+}
+
+void RenderTrial(const RenderArguments& arguments) {
+  const Study study = ReadStudyFile(FindStudy(arguments.what), Detectors());
+  const Cell cell = CellOf(study, arguments.cell);
   if (arguments.trial < 0) {
     throw InputError("--trial", fmt::format("must not be negative, but is {}", arguments.trial));
   }
-  const CellBench bench(study, cells[static_cast<size_t>(arguments.cell)]);
+  const CellBench bench(study, cell);
   WriteTrialFiles(arguments.out, bench, bench.Simulate(arguments.trial));
   fmt::print("Cell {} trial {} of '{}' is in {}\n", arguments.cell, arguments.trial, study.name,
              arguments.out.string());
 }
 
+Lighting LightingFor(const RenderArguments& arguments, const GltfScene& world) {
+  Lighting lighting;
+  if (world.sun) lighting.sun = *world.sun;
+  lighting.sky.model = arguments.sky_model;
+  lighting.sky.illuminance_lx = arguments.sky_lx;
+  if (arguments.sun_lx) lighting.sun.illuminance_lx = *arguments.sun_lx;
+  if (arguments.sun_azimuth_deg) lighting.sun.azimuth_rad = *arguments.sun_azimuth_deg * kDegree;
+  if (arguments.sun_elevation_deg) {
+    lighting.sun.elevation_rad = *arguments.sun_elevation_deg * kDegree;
+  }
+  return lighting;
+}
+
+void RenderScene(RenderArguments arguments) {
+  const GltfScene world = ReadGltf(arguments.what, {.target_node = arguments.target});
+  for (const std::string& note : world.notes) fmt::print(stderr, "note: {}\n", note);
+  arguments.view.lighting = LightingFor(arguments, world);
+  WriteSceneViews(arguments.out, world, arguments.view);
+  const size_t cameras = CamerasOf(world, arguments.view).size();
+  fmt::print("{} view{} of {} in {}\n", cameras, cameras == 1 ? " is" : "s are", arguments.what,
+             arguments.out.string());
+}
+
+void AddSceneOptions(CLI::App& command, RenderArguments& arguments) {
+  const auto add = [&command](const char* name, auto& value, const char* help) {
+    return command.add_option(name, value, help)->group("Scene files");
+  };
+  add("--target", arguments.target, "Name of the node that is the target window");
+  add("--camera", arguments.view.camera, "Only this camera of the file");
+  add("--width", arguments.view.width_px, "Of the picture, if the file has no camera [px]")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  add("--height", arguments.view.height_px, "Of the picture, if the file has no camera [px]")
+      ->check(CLI::Range(16, 8192))
+      ->capture_default_str();
+  add("--sky", arguments.sky_model, "How the sky's light is spread")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Sky::Model>{{"uniform", Sky::Model::kUniform},
+                                            {"cie_overcast", Sky::Model::kCieOvercast},
+                                            {"cie_clear", Sky::Model::kCieClear}}));
+  add("--sky-lx", arguments.sky_lx, "Illuminance by the sky [lx]")->capture_default_str();
+  add("--sun-lx", arguments.sun_lx, "Illuminance by the sun; else as in the file, or 0 [lx]");
+  add("--sun-azimuth-deg", arguments.sun_azimuth_deg, "From +z towards +x");
+  add("--sun-elevation-deg", arguments.sun_elevation_deg, "Above the horizon");
+}
+
 }  // namespace
 
 void AddRenderCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("render", "Writes the observation and the truth of one trial");
+  CLI::App* command = program.add_subcommand(
+      "render", "Writes the observation and the truth of one trial, or views of a scene file");
   command->footer(
-      "Example:\n"
+      "Examples:\n"
       "  fenestra render paper --cell 2 --trial 5 --out /tmp/trial\n"
-      "DIR gets what a detector sees (PNG, YAML) and, in DIR/truth, what it must not see (JSON, "
-      "EXR, "
-      "PCD).");
+      "  fenestra render house.glb --sky cie_clear --sun-lx 60000 --out /tmp/house\n"
+      "Of a trial, DIR gets what a detector sees (PNG, YAML) and, in DIR/truth, what it must not "
+      "see (JSON, EXR, PCD).\n"
+      "Of a glTF file, DIR gets a folder for each camera with pictures and per-pixel truth.");
   const auto arguments = std::make_shared<RenderArguments>();
-  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
-  command->add_option("--cell", arguments->cell, "Index of the cell")->capture_default_str();
+  command
+      ->add_option("STUDY|SCENE", arguments->what,
+                   "Name or file of a study, or a .gltf or .glb file")
+      ->required();
+  command->add_option("--cell", arguments->cell, "Index of the study's cell")
+      ->capture_default_str();
   command->add_option("--trial", arguments->trial, "Index of the trial")->capture_default_str();
   command->add_option("--out", arguments->out, "Folder for the files")->required();
+  AddSceneOptions(*command, *arguments);
   command->callback([arguments, &exit_code] {
-    Render(*arguments);
+    if (IsSceneFile(arguments->what)) {
+      RenderScene(*arguments);
+    } else {
+      RenderTrial(*arguments);
+    }
     exit_code = kDone;
   });
 }

@@ -10,11 +10,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
+enum class Finish { kPlaster, kBrick };
+
 struct Settings {
   double angle_rad = std::numbers::pi / 2;
   int size_px = 15;
   bool glass = true;
   std::string scene = "facade";
+  Finish finish = Finish::kBrick;
 };
 
 ParameterTable<Settings> Table() {
@@ -30,7 +33,10 @@ ParameterTable<Settings> Table() {
           "glass", [](Settings& s) -> bool& { return s.glass; }, "A pane.")
       .Choice(
           "scene", [](Settings& s) -> std::string& { return s.scene; }, {"facade", "wall"},
-          "A scene.");
+          "A scene.")
+      .Choice(
+          "finish", [](Settings& s) -> Finish& { return s.finish; }, {"plaster", "brick"},
+          "A finish.");
   return table;
 }
 
@@ -46,6 +52,16 @@ TEST(ParameterTableTest, DefaultsAreThoseOfTheStruct) {
   const ParameterTable<Settings> table = Table();
   EXPECT_EQ(table.Find("size_px")->default_value, ParameterValue(15.0));
   EXPECT_EQ(table.Find("scene")->default_value, ParameterValue(std::string("facade")));
+}
+
+TEST(ParameterTableTest, EnumerationsAreSetByTheirNames) {
+  const ParameterTable<Settings> table = Table();
+  Settings settings;
+  EXPECT_EQ(table.Get(settings, "finish"), ParameterValue(std::string("brick")));
+  table.Set(settings, "finish", std::string("plaster"));
+  EXPECT_EQ(settings.finish, Finish::kPlaster);
+  EXPECT_THAT(*table.Find("finish")->Objection(std::string("brik")),
+              HasSubstr("Did you mean 'brick'?"));
 }
 
 TEST(ParameterTableTest, ObjectionsSayWhatIsAllowed) {

@@ -43,7 +43,7 @@ TEST(Aovs, DepthAndNormalOfAPlaneAreExactToSinglePrecision) {
 // Frames, reveals and the room lie where the options say, so each pixel's point is on a plane of
 // the building: of all faces, of all objects.
 TEST(Aovs, OfAFacadeLieOnItsPlanes) {
-  const FacadeOptions o{.frame_setback_m = 0.1};
+  const FacadeOptions o{.window = {.setback_m = 0.1}};
   const RayCaster caster(MakeFacade(o));
   const RayGrid rays(DistortedCamera());
   for (const Vector3d& p_WC : {Vector3d(0.0, 0.0, 1.2), Vector3d(0.8, 0.5, 0.7)}) {
@@ -198,7 +198,7 @@ TEST(RayCaster, AClosedRoomHasNoHoleForAMillionRandomRays) {
   const std::vector<float> breaks = GradedBreaks({-2.0, -1.7, 1.7, 2.0}, cell);
   SolidLattice lattice({breaks, breaks, breaks});
   lattice.Fill({{-2, -2, -2}, {2, 2, 2}}, 1);
-  lattice.Fill({{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}}, SolidLattice::kAir);
+  lattice.Fill({{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}}, kAir);
   Scene scene;
   scene.materials = {Grey(0.5f)};
   scene.meshes = {lattice.Surface(1, SolidLattice::Faces::kAll, "room", 0)};

@@ -28,7 +28,7 @@ bool SameBits(const cv::Mat& a, const cv::Mat& b) {
 }
 
 const RayCaster& Facade() {
-  static const RayCaster caster(MakeFacade({.frame_setback_m = 0.1}));
+  static const RayCaster caster(MakeFacade({.window = {.setback_m = 0.1}}));
   return caster;
 }
 
@@ -44,7 +44,7 @@ TEST(RayCaster, TwoThreadsAtOnceAndOneAfterTheOtherRenderTheSameBits) {
 }
 
 TEST(RayCaster, BuiltTwiceRendersTheSameBits) {
-  const RayCaster other(MakeFacade({.frame_setback_m = 0.1}));
+  const RayCaster other(MakeFacade({.window = {.setback_m = 0.1}}));
   EXPECT_TRUE(SameBits(Render(Facade(), 1), Render(other, 1)));
   EXPECT_FALSE(SameBits(Render(Facade(), 1), Render(other, 2)));
 }

@@ -103,16 +103,16 @@ TEST(Pane, DimsTheSkyByItsMeanTransmittance) {
 }
 
 TEST(Pane, OfIndexOneIsNotThere) {
-  Scene with_air = MakeFacade({.room_depth_m = 1.0});
+  Scene with_air = MakeFacade({.room = {.depth_m = 1.0}});
   for (Material& material : with_air.materials) material.refractive_index = 1.0f;
-  const Scene without = MakeFacade({.room_depth_m = 1.0, .glass = false});
+  const Scene without = MakeFacade({.window = {.glass = false}, .room = {.depth_m = 1.0}});
   Lighting lighting = OnlySun(0.4, 0.6, 5e4);
   lighting.sky.illuminance_lx = 1e4;
   // Only pixels at mirrored edges have other samples; their means agree to the sampling error.
   const cv::Mat1f a = Render(with_air, lighting);
   const cv::Mat1f b = Render(without, lighting);
   EXPECT_LT(cv::norm(a, b, cv::NORM_L1) / cv::norm(b, cv::NORM_L1), 1e-4);
-  EXPECT_GT(cv::norm(Render(MakeFacade({.room_depth_m = 1.0}), lighting), b, cv::NORM_L1) /
+  EXPECT_GT(cv::norm(Render(MakeFacade({.room = {.depth_m = 1.0}}), lighting), b, cv::NORM_L1) /
                 cv::norm(b, cv::NORM_L1),
             1e-3);
 }

@@ -24,7 +24,7 @@ Scene ClosedRoom(float reflectance, float emission) {
       GradedBreaks({-1.2, -1.0, 1.0, 1.2}, [](double) { return 0.51; });
   SolidLattice lattice({breaks, breaks, breaks});
   lattice.Fill({{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}}, kShell);
-  lattice.Fill({{-1, -1, -1}, {1, 1, 1}}, SolidLattice::kAir);
+  lattice.Fill({{-1, -1, -1}, {1, 1, 1}}, kAir);
   Scene scene;
   scene.materials = {Grey(reflectance)};
   scene.materials[0].emission_rgb = glm::vec3(emission);
@@ -117,7 +117,8 @@ TEST(Interreflection, OfASunlitFloorLightsTheWallByItsFormFactor) {
 }
 
 double MeanRoomRadiance(double room_reflectance, double ground_reflectance) {
-  const RayCaster caster(MakeFacade({.glass = false, .room_reflectance = room_reflectance}));
+  const RayCaster caster(MakeFacade(
+      {.window = {.glass = false}, .room = {.paint = {.reflectance = room_reflectance}}}));
   Lighting lighting = OnlySun(0.3, 0.6, 5e4);
   lighting.sky.illuminance_lx = 1e4;
   lighting.sky.ground_reflectance = ground_reflectance;
@@ -137,7 +138,7 @@ TEST(Interreflection, ABlackRoomAndAWhiteCourtyardDiffer) {
 }
 
 TEST(Interreflection, ALightTurnedOffTakesAwayExactlyItsPart) {
-  Scene scene = MakeFacade({.glass = false});
+  Scene scene = MakeFacade({.window = {.glass = false}});
   scene.materials[2].emission_rgb = glm::vec3(5.0f);
   scene.lamps = {{.name = "lamp", .p_WL = {0.0, 1.0, -2.0}, .intensity_rgb = glm::vec3(300.0f)}};
   const RayCaster caster(scene);

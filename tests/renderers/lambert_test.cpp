@@ -82,7 +82,7 @@ TEST(Radiance, ChannelsAreBlueGreenRedAndLuminanceIsTheirRec709Sum) {
 }
 
 TEST(Radiance, IsLinearInEachLight) {
-  const RayCaster caster(MakeFacade({.frame_setback_m = 0.1, .room_depth_m = 1.0}));
+  const RayCaster caster(MakeFacade({.window = {.setback_m = 0.1}, .room = {.depth_m = 1.0}}));
   const Lighting sun = OnlySun(0.5, 0.6, 5e4);
   const Lighting sky = OnlySky(1e4, 0.2);
   Lighting both = sky;
@@ -130,7 +130,7 @@ TEST(SunShadow, OfTheRevealOnTheFrameFollowsTheGeometry) {
   constexpr double kSetback = 0.12;
   const Lighting lighting = OnlySun(0.5, 0.6, 5e4);
   const Eigen::Vector3d to_sun = lighting.sun.Direction_W();
-  const RayCaster caster(MakeFacade({.frame_setback_m = kSetback, .room_depth_m = 1.0}));
+  const RayCaster caster(MakeFacade({.window = {.setback_m = kSetback}, .room = {.depth_m = 1.0}}));
   const RayGrid rays(DistortedCamera());
   const Pose X_WC = FacingTheWall({0.05, 0.02, 1.0});
   const AovImages aovs = caster.CastAovs(rays, X_WC, lighting, {});

@@ -121,7 +121,7 @@ TEST(LightBake, IsInterpolatedBetweenCorners) {
 }
 
 TEST(LightBake, OfAFacadeIsNothingInsideAndAllOfTheHemisphereElsewhere) {
-  const TracedScene traced(MakeFacade({.frame_setback_m = 0.1, .glass = false}));
+  const TracedScene traced(MakeFacade({.window = {.setback_m = 0.1, .glass = false}}));
   const LightBake bake = Bake(traced);
   for (size_t t = 0; t < traced.opaque().size(); ++t) {
     EXPECT_EQ(bake.corners[2 * t + 1][0], LightBake::kNoPoint);

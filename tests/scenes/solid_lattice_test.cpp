@@ -3,60 +3,29 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <glm/geometric.hpp>
-#include <map>
+
+#include "mesh_checks.h"
 
 namespace fenestra {
 namespace {
 
-constexpr SolidLattice::Solid kStone = 1;
+constexpr Solid kStone = 1;
 
 SolidLattice ThreeCubed() {
   const std::vector<float> breaks = {0.0f, 1.0f, 2.0f, 3.0f};
   return SolidLattice({breaks, breaks, breaks});
 }
 
-using Corner = std::array<float, 3>;
-
-Corner At(const Mesh& mesh, uint32_t index) {
-  const glm::vec3& p = mesh.positions_W[index];
-  return {p.x, p.y, p.z};
-}
-
-// How often each edge, found by its positions, is walked forward minus backward.
-std::map<std::pair<Corner, Corner>, int> EdgeBalance(const Mesh& mesh) {
-  std::map<std::pair<Corner, Corner>, int> balance;
-  for (const glm::uvec3& t : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const Corner a = At(mesh, t[k]);
-      const Corner b = At(mesh, t[(k + 1) % 3]);
-      if (a < b) {
-        ++balance[{a, b}];
-      } else {
-        --balance[{b, a}];
-      }
-    }
-  }
-  return balance;
-}
-
-double EnclosedVolume(const Mesh& mesh) {
-  double six_volumes = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    six_volumes +=
-        glm::dot(glm::dvec3(mesh.positions_W[t.x]),
-                 glm::cross(glm::dvec3(mesh.positions_W[t.y]), glm::dvec3(mesh.positions_W[t.z])));
-  }
-  return six_volumes / 6.0;
+size_t TriangleCount(const SolidSurface& surface, Solid solid) {
+  return MeshOf(surface, solid, "", 0).triangles.size();
 }
 
 TEST(SolidLattice, SurfaceIsClosedAndFacesOutwards) {
   SolidLattice lattice = ThreeCubed();
   lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kStone);
-  lattice.Fill({{1, 1, 0}, {2, 2, 3}}, SolidLattice::kAir);  // A hole right through.
-  const Mesh mesh = lattice.Surface(kStone, SolidLattice::Faces::kAll, "ring", 0);
-  for (const auto& [edge, balance] : EdgeBalance(mesh)) EXPECT_EQ(balance, 0);
+  lattice.Fill({{1, 1, 0}, {2, 2, 3}}, kAir);  // A hole right through.
+  const Mesh mesh = MeshOf(lattice.Surface(SolidLattice::Faces::kAll), kStone, "ring", 0);
+  EXPECT_TRUE(IsWatertight(mesh));
   // Outward normals make it positive; all coordinates are small integers, so it is exact.
   EXPECT_EQ(EnclosedVolume(mesh), 24.0);
 }
@@ -65,17 +34,30 @@ TEST(SolidLattice, NoFaceStandsBetweenTwoSolids) {
   SolidLattice lattice = ThreeCubed();
   lattice.Fill({{0, 0, 0}, {1, 1, 1}}, kStone);
   lattice.Fill({{1, 0, 0}, {2, 1, 1}}, kStone + 1);
+  const SolidSurface surface = lattice.Surface(SolidLattice::Faces::kAll);
   // Five of each cube's six faces, two triangles each.
-  EXPECT_EQ(lattice.Surface(kStone, SolidLattice::Faces::kAll, "a", 0).triangles.size(), 10u);
-  EXPECT_EQ(lattice.Surface(kStone + 1, SolidLattice::Faces::kAll, "b", 0).triangles.size(), 10u);
+  EXPECT_EQ(TriangleCount(surface, kStone), 10u);
+  EXPECT_EQ(TriangleCount(surface, kStone + 1), 10u);
 }
 
 TEST(SolidLattice, OfItsBorderTheFrontSurfaceHasOnlyPlusZ) {
   SolidLattice lattice = ThreeCubed();
   lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kStone);
-  const Mesh mesh = lattice.Surface(kStone, SolidLattice::Faces::kFrontOfLattice, "front", 0);
+  const Mesh mesh =
+      MeshOf(lattice.Surface(SolidLattice::Faces::kFrontOfLattice), kStone, "front", 0);
   EXPECT_EQ(mesh.triangles.size(), 18u);
   for (const glm::vec3& p : mesh.positions_W) EXPECT_EQ(p.z, 3.0f);
+}
+
+TEST(SolidSurface, MeshesShareVerticesOnlyBetweenFacesThatLookOneWay) {
+  SolidLattice lattice = ThreeCubed();
+  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kStone);
+  const Mesh cube = MeshOf(lattice.Surface(SolidLattice::Faces::kAll), kStone, "cube", 0);
+  EXPECT_EQ(cube.positions_W.size(), 6u * 16u);
+}
+
+TEST(DistinctBreaks, SortsAndMergesWhatRoundingToldApart) {
+  EXPECT_EQ(DistinctBreaks({2.0, 0.0, 0.5, 0.5 + 1e-9}), (std::vector<float>{0.0f, 0.5f, 2.0f}));
 }
 
 TEST(GradedBreaks, KeepsFixedCoordinatesAndCellSize) {

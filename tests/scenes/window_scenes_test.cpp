@@ -1,33 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <limits>
 
 #include "core/input_error.h"
+#include "mesh_checks.h"
 #include "scenes/facade.h"
 #include "scenes/paper_target.h"
 
 namespace fenestra {
 namespace {
 
-const Mesh* Find(const Scene& scene, const std::string& name) {
-  const auto found = std::ranges::find(scene.meshes, name, &Mesh::name);
-  return found == scene.meshes.end() ? nullptr : &*found;
-}
-
-// Area of those triangles that lie in the plane z = 0.
 double FrontArea(const Mesh& mesh) {
-  double area = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a = mesh.positions_W[t.x];
-    const glm::dvec3 b = mesh.positions_W[t.y];
-    const glm::dvec3 c = mesh.positions_W[t.z];
-    if (a.z == 0.0 && b.z == 0.0 && c.z == 0.0) {
-      area += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-  }
-  return area;
+  return AreaInPlane(mesh, 0.0);
 }
 
 // Areas are sums of some thousand products of single-precision coordinates below 10 m.
@@ -64,7 +49,7 @@ TEST(PaperTarget, AllFaultsAreReportedAtOnce) {
 }
 
 TEST(Facade, WallHasATrueOpening) {
-  const Scene scene = MakeFacade({.frame_setback_m = 0.1});
+  const Scene scene = MakeFacade({.window = {.setback_m = 0.1}});
   EXPECT_NO_THROW(Validate(scene));
   EXPECT_NEAR(FrontArea(*Find(scene, "wall")), 12.0 * 8.0 - 1.0, kAreaTolerance);
   EXPECT_EQ(FrontArea(*Find(scene, "frame")), 0.0);  // It stands 0.1 m behind.
@@ -76,7 +61,7 @@ TEST(Facade, AFlushFrameFillsTheOpeningsEdge) {
 }
 
 TEST(Facade, TheTargetIsTheFramesFrontOuterRectangle) {
-  const Scene scene = MakeFacade({.width_m = 1.2, .frame_setback_m = 0.15});
+  const Scene scene = MakeFacade({.window = {.width_m = 1.2, .setback_m = 0.15}});
   ASSERT_TRUE(scene.target);
   EXPECT_EQ(scene.target->Centroid_W(), Eigen::Vector3d(0.0, 0.0, -0.15));
   const Mesh& frame = *Find(scene, "frame");
@@ -91,7 +76,7 @@ TEST(Facade, TheTargetIsTheFramesFrontOuterRectangle) {
 
 TEST(Facade, GlassAndTargetCanBeLeftOut) {
   EXPECT_NE(Find(MakeFacade({}), "pane"), nullptr);
-  EXPECT_EQ(Find(MakeFacade({.glass = false}), "pane"), nullptr);
+  EXPECT_EQ(Find(MakeFacade({.window = {.glass = false}}), "pane"), nullptr);
   const Scene bare = MakeFacade({.with_target = false});
   EXPECT_FALSE(bare.target);
   EXPECT_EQ(bare.meshes.size(), 1u);
@@ -100,10 +85,9 @@ TEST(Facade, GlassAndTargetCanBeLeftOut) {
 
 TEST(Facade, AllFaultsAreReportedAtOnce) {
   try {
-    MakeFacade({.frame_width_m = 0.5,
-                .frame_setback_m = 0.25,
-                .wall_width_m = 1.0,
-                .room_reflectance = -0.1});
+    MakeFacade({.wall = {.width_m = 1.0},
+                .window = {.frame_width_m = 0.5, .setback_m = 0.25},
+                .room = {.paint = {.reflectance = -0.1}}});
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_EQ(error.faults().size(), 4u) << error.what();

@@ -161,8 +161,8 @@ TEST(StructuredLightSensorTest, AtAFlatAngleNothingReturns) {
 
 TEST(StructuredLightSensorTest, GlassLetsThePatternThroughToTheRoom) {
   FacadeOptions options;
-  options.room_depth_m = 1.0;
-  options.room_reflectance_830nm = 0.8;
+  options.room.depth_m = 1.0;
+  options.room.paint.reflectance_830nm = 0.8;
   const DepthFrame frame = Seen(Noiseless(), MakeFacade(options), {.distance_m = 1.5});
   // Centre of the window: the room's back wall at 1.5 + 0.3 + 1.0 m.
   EXPECT_NEAR(frame.depth.raw(120, 160) * 0.001, 2.8, 0.5 * 2.85e-3 * 2.8 * 2.8 + 0.001);

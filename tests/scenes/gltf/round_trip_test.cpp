@@ -171,7 +171,8 @@ TEST_P(GltfRoundTrip, ThePaperTargetComesBackToTheBit) {
 
 TEST_P(GltfRoundTrip, TheFacadeComesBackToTheBit) {
   GltfScene scene;
-  scene.scene = MakeFacade({.frame_setback_m = 0.12, .frame_reflectance_830nm = 0.4});
+  scene.scene = MakeFacade(
+      {.window = {.setback_m = 0.12, .frame = {.reflectance = 0.05, .reflectance_830nm = 0.4}}});
   EXPECT_EQ(Differences(scene, ThroughFile(scene, GetParam())), Names());
 }
 

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/input_error.h"
+#include "experiments/cli/commands.h"
+#include "experiments/sampling.h"
+#include "experiments/study_catalogue.h"
+#include "experiments/study_reader.h"
+#include "experiments/trial_scene.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+struct ExportArguments {
+  std::string study;
+  int cell = 0;
+  int trial = 0;
+  std::filesystem::path out;
+};
+
+void Export(const ExportArguments& arguments) {
+  const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
+  if (arguments.trial < 0) {
+    throw InputError("--trial", fmt::format("must not be negative, but is {}", arguments.trial));
+  }
+  const Trial trial = SampleTrial(study, CellOf(study, arguments.cell), arguments.trial);
+  WriteGltf(arguments.out, TrialScene(trial.settings));
+  fmt::print("The scene of cell {} trial {} of '{}' is in {}\n", arguments.cell, arguments.trial,
+             study.name, arguments.out.string());
+}
+
+}  // namespace
+
+void AddExportCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "export", "Writes the scene of one trial as glTF, with the cameras and the target in it");
+  command->footer(
+      "Example:\n"
+      "  fenestra export facade --cell 0 --out facade.glb\n"
+      "The file opens in any glTF viewer, and in `fenestra render` with the same truth.");
+  const auto arguments = std::make_shared<ExportArguments>();
+  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
+  command->add_option("--cell", arguments->cell, "Index of the study's cell")
+      ->capture_default_str();
+  command->add_option("--trial", arguments->trial, "Index of the trial")->capture_default_str();
+  command->add_option("--out", arguments->out, "A .gltf or .glb file")->required();
+  command->callback([arguments, &exit_code] {
+    Export(*arguments);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli

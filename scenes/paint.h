@@ -1,0 +1,33 @@
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+
+namespace fenestra {
+
+enum class Hue { kNeutral, kBrickRed, kOchre, kBrown, kGreen, kBlue };
+
+/// Their names, in order: neutral, brick_red, ...
+const std::vector<std::string>& HueNames();
+
+/// A matt surface as a study describes it: how bright it is to the eye and at 830 nm, and its hue.
+struct Paint {
+  double reflectance = 0.5;        ///< Rec. 709 luminance of the reflectance.
+  double reflectance_830nm = 0.5;  ///< At the structured-light projector's wavelength.
+  Hue hue = Hue::kNeutral;
+};
+
+/// Linear red, green and blue of a hue, scaled to a luminance of 1.
+glm::dvec3 HueRgb(Hue hue);
+
+/// The highest reflectance that a hue can have: above it, one of its colours would reflect more
+/// light than it receives.
+double MostReflectance(Hue hue);
+
+/// Its reflectance has the paint's luminance and hue.
+Material MaterialOf(const std::string& name, const Paint& paint);
+
+}  // namespace fenestra
