@@ -17,7 +17,7 @@ std::array<int, 256> Base64Values() {
   constexpr std::string_view kAlphabet =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t i = 0; i < kAlphabet.size(); ++i) {
-    values[static_cast<uint>(kAlphabet[i])] = static_cast<int>(i);
+    values[static_cast<uint8_t>(kAlphabet[i])] = static_cast<int>(i);
   }
   return values;
 }
@@ -36,14 +36,14 @@ Bytes DecodeBase64(std::string_view text) {
   uint32_t bits = 0;
   int bit_count = 0;
   for (const char c : text) {
-    const int value = kValues[static_cast<uint>(c)];
+    const int value = kValues[static_cast<uint8_t>(c)];
     if (value < 0)
       throw std::invalid_argument("its base64 text has characters that are not base64");
     bits = (bits << 6) | static_cast<uint32_t>(value);
     bit_count += 6;
     if (bit_count < 8) continue;
     bit_count -= 8;
-    bytes.push_back(static_cast<uint>(bits >> bit_count));
+    bytes.push_back(static_cast<uint8_t>(bits >> bit_count));
   }
   return bytes;
 }
