@@ -68,8 +68,8 @@ struct Target {
 
   void Element(size_t element, const uint8_t* at) {
     T* out = &values[element * layout.ComponentCount()];
-    for (uint32_t column = 0; column < layout.columns; ++column) {
-      for (uint32_t row = 0; row < layout.rows; ++row) {
+    for (size_t column = 0; column < layout.columns; ++column) {
+      for (size_t row = 0; row < layout.rows; ++row) {
         *out++ = Component<T>(at + column * layout.column_bytes + row * layout.component_bytes,
                               accessor.componentType, accessor.normalized);
       }

@@ -11,20 +11,20 @@ namespace {
 
 constexpr size_t kLongestPath = 1024;
 
-std::array<int8_t, 256> Base64Values() {
-  std::array<int8_t, 256> values;
+std::array<int, 256> Base64Values() {
+  std::array<int, 256> values;
   values.fill(-1);
   constexpr std::string_view kAlphabet =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
   for (size_t i = 0; i < kAlphabet.size(); ++i) {
-    values[static_cast<uint8_t>(kAlphabet[i])] = static_cast<int8_t>(i);
+    values[static_cast<uint8_t>(kAlphabet[i])] = static_cast<int>(i);
   }
   return values;
 }
 
 // RFC 4648 with padding.
 Bytes DecodeBase64(std::string_view text) {
-  static const std::array<int8_t, 256> kValues = Base64Values();
+  static const std::array<int, 256> kValues = Base64Values();
   if (text.size() % 4 != 0) throw std::invalid_argument("its base64 text is cut off");
   size_t padding = 0;
   while (padding < 2 && text.ends_with('=')) {
@@ -108,7 +108,7 @@ std::filesystem::path FileInFolder(std::string_view uri, const std::filesystem::
   const auto real_folder = std::filesystem::weakly_canonical(
       folder.empty() ? std::filesystem::path(".") : folder, error);
   if (error) throw std::invalid_argument("the file's folder cannot be resolved");
-  const auto real_file = std::filesystem::weakly_canonical(real_folder / name, error);
+  auto real_file = std::filesystem::weakly_canonical(real_folder / name, error);
   if (error) throw std::invalid_argument("the path cannot be resolved");
   if (!IsInside(real_file, real_folder)) {
     throw std::invalid_argument("leaves the folder of the glTF file");

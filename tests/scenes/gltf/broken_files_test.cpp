@@ -198,8 +198,8 @@ TEST(BrokenGltf, OneFileManyTimesCountsAgainstTheLimit) {
 
 TEST(BrokenGltf, BrokenBase64IsRefused) {
   json document = TriangleDocument();
-  for (const char* uri : {"data:", "data:;base64,", "data:;base64,A",
-                          "data:;base64,A*==", "data:text/plain,AAAA", "data:;base64,AA=A"}) {
+  for (const char* uri : {"data:", "data:;base64,", "data:;base64,A", "data:;base64,A*==",
+                          "data:text/plain,AAAA", "data:;base64,AA=A", "data:;base64,\u00e4AA"}) {
     document["buffers"][0]["uri"] = uri;
     EXPECT_THAT(Refusal(document), HasSubstr("/buffers/0")) << uri;
   }
