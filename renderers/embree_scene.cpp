@@ -6,8 +6,24 @@
 #include "core/check.h"
 
 namespace fenestra {
+namespace {
 
-EmbreeDevice::EmbreeDevice() : device_(rtcNewDevice(nullptr)) {
+const char* ConfigurationOf(InstructionSet instruction_set) {
+  switch (instruction_set) {
+    case InstructionSet::kAvx2:
+      return "isa=avx2";
+    case InstructionSet::kSse42:
+      return "isa=sse4.2";
+    case InstructionSet::kBest:
+      break;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+EmbreeDevice::EmbreeDevice(InstructionSet instruction_set)
+    : device_(rtcNewDevice(ConfigurationOf(instruction_set))) {
   if (device_ == nullptr) throw std::runtime_error("Embree does not run on this machine");
 }
 

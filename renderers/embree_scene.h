@@ -3,6 +3,7 @@
 #include <span>
 
 #include "renderers/packet.h"
+#include "renderers/ray_caster.h"
 #include "renderers/surface_patterns.h"
 #include "renderers/triangle_soup.h"
 
@@ -12,7 +13,7 @@ namespace fenestra {
 class EmbreeDevice {
  public:
   /// Throws std::runtime_error if Embree does not support this machine.
-  EmbreeDevice();
+  explicit EmbreeDevice(InstructionSet instruction_set);
   ~EmbreeDevice();
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;

@@ -8,6 +8,15 @@
 #include "renderers/wide.h"
 
 namespace fenestra {
+namespace {
+
+// A ray that hits nothing goes to infinity. Embree's packets of 4 and 8, though not those of 16,
+// insist on finite origins even in lanes that are not traced.
+inline float FiniteOr0(float t) {
+  return t < std::numeric_limits<float>::max() ? t : 0.0f;
+}
+
+}  // namespace
 
 FloatPose ToFloat(const Pose& X_WC) {
   const auto to_vec3 = [](const auto& v) {
@@ -121,9 +130,10 @@ FENESTRA_WIDE RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m,
     const float facing = nx * ray.dir_x[i] + ny * ray.dir_y[i] + nz * ray.dir_z[i];
     const float unit = offset_m / std::sqrt(nx * nx + ny * ny + nz * nz);
     const float off = facing < 0.0f ? unit : -unit;
-    out.org_x[i] = ray.org_x[i] + ray.tfar[i] * ray.dir_x[i] + off * nx;
-    out.org_y[i] = ray.org_y[i] + ray.tfar[i] * ray.dir_y[i] + off * ny;
-    out.org_z[i] = ray.org_z[i] + ray.tfar[i] * ray.dir_z[i] + off * nz;
+    const float t = FiniteOr0(ray.tfar[i]);
+    out.org_x[i] = ray.org_x[i] + t * ray.dir_x[i] + off * nx;
+    out.org_y[i] = ray.org_y[i] + t * ray.dir_y[i] + off * ny;
+    out.org_z[i] = ray.org_z[i] + t * ray.dir_z[i] + off * nz;
     out.tnear[i] = 0.0f;
     out.dir_x[i] = direction_W.x;
     out.dir_y[i] = direction_W.y;
@@ -178,9 +188,10 @@ FENESTRA_WIDE RayPacket MirroredRays(const LaneMask& panes, const RayPacket& pac
     const float twice = 2.0f * nd / nn;
     const float unit = offset_m / std::sqrt(nn);
     const float off = nd < 0.0f ? unit : -unit;
-    out.ray.org_x[i] = ray.org_x[i] + ray.tfar[i] * dx + off * nx;
-    out.ray.org_y[i] = ray.org_y[i] + ray.tfar[i] * dy + off * ny;
-    out.ray.org_z[i] = ray.org_z[i] + ray.tfar[i] * dz + off * nz;
+    const float t = FiniteOr0(ray.tfar[i]);
+    out.ray.org_x[i] = ray.org_x[i] + t * dx + off * nx;
+    out.ray.org_y[i] = ray.org_y[i] + t * dy + off * ny;
+    out.ray.org_z[i] = ray.org_z[i] + t * dz + off * nz;
     out.ray.tnear[i] = 0.0f;
     out.ray.dir_x[i] = on ? dx - twice * nx : 0.0f;
     out.ray.dir_y[i] = on ? dy - twice * ny : 0.0f;

@@ -22,8 +22,8 @@ namespace fenestra {
 /// A point's hemisphere is divided into 24 x 24 cells of equal cosine-weighted solid angle with a
 /// ray each; where neighbouring rays end differently, in the open or on a surface, 16 rays per cell
 /// follow. Error of the visible part: about 0.001, and
-/// 0.003 behind a pane that reaches to grazing angles. Panes count with their transmittance; what they
-/// mirror is left out.
+/// 0.003 behind a pane that reaches to grazing angles. Panes count with their transmittance; what
+/// they mirror is left out.
 struct LightBake {
   static constexpr uint32_t kNoPoint = ~0u;
 

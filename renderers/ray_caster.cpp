@@ -31,7 +31,7 @@ void Validate(const RayCasterOptions& options) {
 struct RayCaster::Impl {
   Impl(const Scene& the_scene, const RayCasterOptions& options)
       : scene((Validate(options), Validate(the_scene), the_scene)),
-        traced(scene),
+        traced(scene, options.instruction_set),
         surfaces(NumberSurfaces(traced.opaque())),
         bake(BakeLight(traced, surfaces)),
         side_keys(MakeSideKeys(surfaces)),

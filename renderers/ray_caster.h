@@ -58,10 +58,15 @@ struct AovImages {
   cv::Mat1f irradiance_830;  ///< By all lights, on the surface [W/(m² nm)].
 };
 
+enum class InstructionSet { kBest, kAvx2, kSse42 };
+
 struct RayCasterOptions {
   /// Diffuse reflections that light goes through before it reaches what is seen. The rest that is
   /// left out is at most ρ^(bounces + 1) of the light in a closed white room of reflectance ρ.
   int bounces = 16;
+  /// What Embree may use of this machine. Fenestra's own kernels round alike on all of them;
+  /// Embree's hits differ in their last bits. See docs/performance.md.
+  InstructionSet instruction_set = InstructionSet::kBest;
 };
 
 /// Throws InputError unless bounces is in [0, 1000].

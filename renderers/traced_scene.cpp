@@ -55,12 +55,13 @@ float HitCosine(const RayPacket& packet, int lane) {
   return std::abs(nd) / std::sqrt(nn * dd);
 }
 
-TracedScene::TracedScene(const Scene& scene)
+TracedScene::TracedScene(const Scene& scene, InstructionSet instruction_set)
     : opaque_(MakeTriangleSoup(scene, Material::Kind::kLambert)),
       panes_(MakeTriangleSoup(scene, Material::Kind::kGlass)),
       patterns_(scene, opaque_),
       pane_index_(RefractiveIndices(scene, panes_)),
       extent_m_(std::max(LargestCoordinate(opaque_), LargestCoordinate(panes_))),
+      device_(instruction_set),
       all_tracer_(device_, std::array{SolidPart(opaque_), HoledPart(opaque_), PanePart(panes_)},
                   patterns_),
       opaque_tracer_(device_, std::array{SolidPart(opaque_), HoledPart(opaque_)}, patterns_),

@@ -13,7 +13,7 @@ namespace fenestra {
 /// opaque ones alone and panes of glass alone, for light that is on its way to a surface.
 class TracedScene {
  public:
-  explicit TracedScene(const Scene& scene);
+  explicit TracedScene(const Scene& scene, InstructionSet instruction_set = InstructionSet::kBest);
 
   const TriangleSoup& opaque() const { return opaque_; }
   const TriangleSoup& panes() const { return panes_; }

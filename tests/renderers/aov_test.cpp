@@ -8,7 +8,6 @@
 #include "renderers/ray_caster.h"
 #include "scenes/facade.h"
 #include "scenes/paper_target.h"
-#include "scenes/solid_lattice.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {
@@ -191,36 +190,6 @@ TEST(SeesPoint, IsFalseFromTheSurfacesOtherSide) {
   options.p_WP = Vector3d(0.0, 0.0, -2.0);
   const AovImages aovs = caster.CastAovs(rays, FacingTheWall({0, 0, 2}), Lighting{}, options);
   EXPECT_EQ(cv::countNonZero(aovs.sees_point), 0);
-}
-
-TEST(RayCaster, AClosedRoomHasNoHoleForAMillionRandomRays) {
-  const auto cell = [](double) { return 0.31; };
-  const std::vector<float> breaks = GradedBreaks({-2.0, -1.7, 1.7, 2.0}, cell);
-  SolidLattice lattice({breaks, breaks, breaks});
-  lattice.Fill({{-2, -2, -2}, {2, 2, 2}}, 1);
-  lattice.Fill({{-1.7, -1.7, -1.7}, {1.7, 1.7, 1.7}}, kAir);
-  Scene scene;
-  scene.materials = {Grey(0.5f)};
-  scene.meshes = {lattice.Surface(1, SolidLattice::Faces::kAll, "room", 0)};
-  const RayCaster caster(scene);
-  const RayGrid rays(CameraModel::Pinhole(400, 250, 100.0));
-  const RandomStream random(11);
-  for (uint64_t shot = 0; shot < 10; ++shot) {
-    const RandomStream stream = random.Child("shot", shot);
-    AovOptions options;
-    options.offsets_px = cv::Mat2f(250, 400);
-    std::vector<float> uniforms(2 * options.offsets_px.total());
-    stream.Child("offsets").FillUniforms(uniforms);
-    size_t i = 0;
-    for (cv::Vec2f& offset : options.offsets_px) {
-      offset = {uniforms[i] - 0.5f, uniforms[i + 1] - 0.5f};
-      i += 2;
-    }
-    const Vector3d p_WC(stream.Normal(0) * 0.3, stream.Normal(1) * 0.3, stream.Normal(2) * 0.3);
-    const Pose X_WC = LookingAt(p_WC, {stream.Normal(3), stream.Normal(4), stream.Normal(5)});
-    const AovImages aovs = caster.CastAovs(rays, X_WC, Lighting{}, options);
-    EXPECT_EQ(cv::countNonZero(aovs.object_id == -1), 0);
-  }
 }
 
 }  // namespace

@@ -72,6 +72,32 @@ std::vector<double> EdgeErrors(const Edge& edge, int edge_samples) {
   return errors;
 }
 
+// The part of a unit square around (x, y) that lies left of or above the edge: the square is cut
+// by the edge's half-plane (Sutherland and Hodgman), then measured.
+double Coverage(const Edge& edge, double x, double y) {
+  // Signed distance from the edge [px], y downwards: positive on the bright side.
+  const Eigen::Vector2d bright(-std::cos(edge.tilt_rad), -std::sin(edge.tilt_rad));
+  const Eigen::Vector2d on_edge(edge.right_px, edge.below_px);
+  std::vector<Eigen::Vector2d> corners = {
+      {x - 0.5, y - 0.5}, {x + 0.5, y - 0.5}, {x + 0.5, y + 0.5}, {x - 0.5, y + 0.5}};
+  std::vector<Eigen::Vector2d> inside;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const Eigen::Vector2d& a = corners[i];
+    const Eigen::Vector2d& b = corners[(i + 1) % corners.size()];
+    const double da = bright.dot(a - on_edge);
+    const double db = bright.dot(b - on_edge);
+    if (da >= 0.0) inside.push_back(a);
+    if ((da >= 0.0) != (db >= 0.0)) inside.push_back(a + (b - a) * (da / (da - db)));
+  }
+  double area = 0.0;
+  for (size_t i = 0; i < inside.size(); ++i) {
+    const Eigen::Vector2d& a = inside[i];
+    const Eigen::Vector2d& b = inside[(i + 1) % inside.size()];
+    area += 0.5 * (a.x() * b.y() - a.y() * b.x());
+  }
+  return area;
+}
+
 double Rms(const std::vector<double>& errors) {
   double sum = 0.0;
   for (const double e : errors) sum += e * e;
@@ -98,6 +124,33 @@ TEST(EdgeSampling, PlacesEdgesToThreeThousandthsOfAPixel) {
           "rms_mpx_at_" + std::to_string(tilt_deg) + "_deg_below_" + std::to_string(below_px),
           std::to_string(1e3 * Rms(errors)));
     }
+  }
+}
+
+TEST(EdgeSampling, PixelsGetTheAreaThatTheEdgeLeavesThem) {
+  for (const double tilt_deg : kTilts_deg) {
+    const Edge edge{.tilt_rad = Radians(tilt_deg)};
+    const RayCaster caster(HalfPlane(edge));
+    const RayGrid rays(CameraModel::Pinhole(kSize, kSize, kFocal_px));
+    const cv::Mat1f image = caster.Render(rays, FacingTheWall({0, 0, kDistance}),
+                                          OnlySun(0.0, 0.1, 1e5), {}, RandomStream(4));
+    double full = 0.0;
+    cv::minMaxLoc(image, nullptr, &full);
+    int crossed = 0;
+    double sum = 0.0;
+    for (int v = 0; v < kSize; ++v) {
+      for (int u = 0; u < kSize; ++u) {
+        const double area = Coverage(edge, u - 0.5 * (kSize - 1), v - 0.5 * (kSize - 1));
+        const double error = static_cast<double>(image(v, u)) / full - area;
+        // A corner that four stratified samples and those of eight neighbours miss is small.
+        EXPECT_LT(std::abs(error), 0.03) << tilt_deg << ": " << u << ", " << v;
+        if (area <= 0.0 || area >= 1.0) continue;
+        sum += error * error;
+        ++crossed;
+      }
+    }
+    EXPECT_GT(crossed, kSize / 2);
+    EXPECT_LT(std::sqrt(sum / crossed), 0.0025) << tilt_deg;
   }
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/input_error.h"
-#include "facade_examples.h"
-#include "mesh_checks.h"
+#include "tests/scenes/facade_examples.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

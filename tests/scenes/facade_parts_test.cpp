@@ -8,10 +8,10 @@
 #include <set>
 
 #include "core/input_error.h"
-#include "facade_examples.h"
-#include "mesh_checks.h"
 #include "scenes/facade_plan.h"
 #include "scenes/facade_shutters.h"
+#include "tests/scenes/facade_examples.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "mesh_checks.h"
 #include "scenes/facade.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

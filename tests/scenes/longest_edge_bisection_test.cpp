@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "mesh_checks.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

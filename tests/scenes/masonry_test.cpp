@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "facade_examples.h"
-#include "mesh_checks.h"
+#include "tests/scenes/facade_examples.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "mesh_checks.h"
+#include "tests/scenes/mesh_checks.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/pose.h"
-#include "mesh_checks.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

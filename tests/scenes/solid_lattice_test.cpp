@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "mesh_checks.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "core/input_error.h"
-#include "mesh_checks.h"
 #include "scenes/facade.h"
 #include "scenes/wall_pattern.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "core/input_error.h"
-#include "mesh_checks.h"
 #include "scenes/facade.h"
 #include "scenes/paper_target.h"
+#include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {
 namespace {
