@@ -41,6 +41,20 @@ FENESTRA_WIDE Directions ToWorld(const CameraAxes& axes, const Lanes<float>& x,
   return d;
 }
 
+FENESTRA_WIDE PixelBlock MakePixelBlock(uint32_t corner, uint32_t stride, uint32_t index,
+                                        uint32_t width, const ImageScramble& scramble) {
+  PixelBlock block;
+  for (uint32_t i = 0; i < kLanes; ++i) {
+    const uint32_t column = i % kBlockSide;
+    const uint32_t row = i / kBlockSide;
+    const NetPoint seed = scramble.OfPixel(index + row * width + column);
+    block.corner.v[i] = corner + row * stride + column;
+    block.seed_x.v[i] = seed.x;
+    block.seed_y.v[i] = seed.y;
+  }
+  return block;
+}
+
 FENESTRA_WIDE PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x,
                                           const Lanes<uint32_t>& net_y,
                                           const Lanes<uint32_t>& seed_x,
@@ -211,6 +225,29 @@ FENESTRA_WIDE RayPacket MirroredRays(const LaneMask& panes, const RayPacket& pac
     out.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   return out;
+}
+
+FENESTRA_WIDE Lanes<float> PixelWidths(const RayPacket& packet, const Lanes<float>& before,
+                                       float spread) {
+  constexpr float kLeastCosine = 0.01f;
+  const RTCRay16& ray = packet.ray;
+  const RTCHit16& hit = packet.hit;
+  Lanes<float> widths;
+  for (int i = 0; i < kLanes; ++i) {
+    const float nx = hit.Ng_x[i];
+    const float ny = hit.Ng_y[i];
+    const float nz = hit.Ng_z[i];
+    const float dx = ray.dir_x[i];
+    const float dy = ray.dir_y[i];
+    const float dz = ray.dir_z[i];
+    const float nn = nx * nx + ny * ny + nz * nz;
+    const float dd = dx * dx + dy * dy + dz * dz;
+    const float nd = nx * dx + ny * dy + nz * dz;
+    const float cosine = (nd < 0.0f ? -nd : nd) / std::sqrt(nn * dd);
+    const float limited = cosine > kLeastCosine ? cosine : kLeastCosine;
+    widths[i] = spread * (before[i] + ray.tfar[i]) / std::sqrt(limited);
+  }
+  return widths;
 }
 
 FENESTRA_WIDE Lanes<uint32_t> LookUp(const uint32_t* table, const Lanes<uint32_t>& index) {

@@ -41,6 +41,21 @@ struct PixelPoints {
   Lanes<float> t;
 };
 
+/// Pixels are sampled in square blocks of this many to a side: a lane for each pixel, row by row.
+inline constexpr int kBlockSide = 4;
+static_assert(kBlockSide * kBlockSide == kLanes);
+
+struct PixelBlock {
+  Lanes<uint32_t> corner;  ///< Of each pixel's top left corner: see PatchesOf.
+  Lanes<uint32_t> seed_x;  ///< For ScrambledPoints.
+  Lanes<uint32_t> seed_y;
+};
+
+/// `corner` and `index` are those of the block's top left pixel; `stride` corners and `width`
+/// pixels are in a row of the image.
+PixelBlock MakePixelBlock(uint32_t corner, uint32_t stride, uint32_t index, uint32_t width,
+                          const ImageScramble& scramble);
+
 /// Net points (see NetTable) scrambled with each lane's seeds.
 PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x, const Lanes<uint32_t>& net_y,
                             const Lanes<uint32_t>& seed_x, const Lanes<uint32_t>& seed_y);
@@ -78,6 +93,10 @@ Lanes<float> PaneReflectances(const LaneMask& panes, const RayPacket& packet, co
 /// Rays mirrored where lanes of the mask have hit panes, starting `offset_m` before them; other
 /// lanes have no direction.
 RayPacket MirroredRays(const LaneMask& panes, const RayPacket& packet, float offset_m);
+
+/// How wide a pixel's area is on what was hit [m]: `spread` times the whole way of the ray, of
+/// which `before` is the part before a mirror, stretched by 1/cos, so its side by the root.
+Lanes<float> PixelWidths(const RayPacket& packet, const Lanes<float>& before, float spread);
 
 /// table[index[i]] of each lane.
 Lanes<uint32_t> LookUp(const uint32_t* table, const Lanes<uint32_t>& index);

@@ -171,15 +171,13 @@ void LightTransport::ApplyPatterns(const LaneMask& mask, const RayPacket& packet
                                    const Lanes<float>& before, Ends& ends) const {
   const SurfacePatterns& patterns = surfaces_.traced.patterns();
   const TriangleSoup& soup = surfaces_.traced.opaque();
+  const Lanes<float> widths = PixelWidths(packet, before, spread_);
   for (int i = 0; i < kLanes; ++i) {
     if (mask[i] == 0 || packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     const uint32_t triangle = packet.hit.primID[i];
     if (!patterns.has_pattern(triangle)) continue;
-    // A pixel's area on the surface is stretched by 1/cos: its side by the root.
-    const float cosine = std::max(HitCosine(packet, i), 0.01f);
-    const float width_m = spread_ * (before[i] + packet.ray.tfar[i]) / std::sqrt(cosine);
     const Spectrum factors =
-        PatternSpectrum(patterns.At(triangle, packet.hit.u[i], packet.hit.v[i], width_m));
+        PatternSpectrum(patterns.At(triangle, packet.hit.u[i], packet.hit.v[i], widths[i]));
     for (size_t c = 0; c < channels_.size(); ++c) {
       if (IsArriving(channels_[c])) continue;
       ends.radiance[c][i] *= glm::dot(pattern_weights_[c][soup.mesh_of[triangle]], factors);

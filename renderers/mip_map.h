@@ -32,6 +32,9 @@ class MipMap {
     int height = 0;
     std::vector<glm::u16vec4> texels;  // Linear, 65535 for 1.
     glm::vec4 At(int x, int y) const;
+    const glm::u16vec4* Row(int y) const {
+      return texels.data() + static_cast<size_t>(y) * static_cast<size_t>(width);
+    }
   };
 
   static Level Halved(const Level& level);

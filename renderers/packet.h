@@ -21,6 +21,14 @@ struct alignas(64) Lanes {
   const T* data() const { return v.data(); }
 };
 
+/// The same value in all lanes.
+template <typename T>
+Lanes<T> AllLanes(T value) {
+  Lanes<T> lanes;
+  lanes.v.fill(value);
+  return lanes;
+}
+
 /// Embree's convention: -1 traces a lane, 0 leaves it out.
 using LaneMask = Lanes<int>;
 

@@ -7,33 +7,6 @@
 namespace fenestra {
 namespace {
 
-Lanes<uint32_t> AllLanes(uint32_t value) {
-  Lanes<uint32_t> lanes;
-  lanes.v.fill(value);
-  return lanes;
-}
-
-// The pixels of a block as lanes, row by row.
-struct Block {
-  Lanes<uint32_t> corner;
-  Lanes<uint32_t> seed_x;
-  Lanes<uint32_t> seed_y;
-};
-
-FENESTRA_WIDE Block MakeBlock(uint32_t corner, uint32_t stride, uint32_t index, uint32_t width,
-                              const ImageScramble& scramble) {
-  Block block;
-  for (uint32_t i = 0; i < kLanes; ++i) {
-    const uint32_t column = i % PixelSampler::kBlock;
-    const uint32_t row = i / PixelSampler::kBlock;
-    const NetPoint seed = scramble.OfPixel(index + row * width + column);
-    block.corner.v[i] = corner + row * stride + column;
-    block.seed_x.v[i] = seed.x;
-    block.seed_y.v[i] = seed.y;
-  }
-  return block;
-}
-
 FENESTRA_WIDE void Accumulate(const Lanes<float>& values, Lanes<float>& sums) {
   for (int i = 0; i < kLanes; ++i) sums[i] += values[i];
 }
@@ -112,9 +85,9 @@ Film::PixelResult PixelSampler::SampleSparsely(Film::Pixel pixel, int samples) c
 }
 
 void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) const {
-  const int columns = std::min(kBlock, rays_.width_px() - top_left.column);
-  const int rows = std::min(kBlock, rays_.height_px() - top_left.row);
-  if (columns < kBlock || rows < kBlock) {
+  const int columns = std::min(kBlockSide, rays_.width_px() - top_left.column);
+  const int rows = std::min(kBlockSide, rays_.height_px() - top_left.row);
+  if (columns < kBlockSide || rows < kBlockSide) {
     for (int row = top_left.row; row < top_left.row + rows; ++row) {
       for (int column = top_left.column; column < top_left.column + columns; ++column) {
         film.Set({column, row}, SampleSparsely({column, row}, samples));
@@ -122,8 +95,8 @@ void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) co
     }
     return;
   }
-  const Block block = MakeBlock(CornerOf(top_left), stride_, IndexOf(top_left),
-                                static_cast<uint32_t>(rays_.width_px()), scramble_);
+  const PixelBlock block = MakePixelBlock(CornerOf(top_left), stride_, IndexOf(top_left),
+                                          static_cast<uint32_t>(rays_.width_px()), scramble_);
   const PixelPatches patches = PatchesOf(rays_.corner_data(), block.corner, stride_);
   const LaneMask all = FirstLanes(kLanes);
   LightTransport::Arriving sums;
@@ -147,7 +120,7 @@ void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) co
     Film::PixelResult result;
     result.key = sums.key[i];
     for (size_t c = 0; c < channel_count(); ++c) result.radiance[c] = weight * sums.radiance[c][i];
-    film.Set({top_left.column + i % kBlock, top_left.row + i / kBlock}, result);
+    film.Set({top_left.column + i % kBlockSide, top_left.row + i / kBlockSide}, result);
   }
 }
 

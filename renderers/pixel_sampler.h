@@ -12,10 +12,6 @@ namespace fenestra {
 /// Traces rays through places within the pixels of one image.
 class PixelSampler {
  public:
-  /// Pixels are sampled in square blocks of this many to a side: a lane for each pixel.
-  static constexpr int kBlock = 4;
-  static_assert(kBlock * kBlock == kLanes);
-
   /// Keeps references to all arguments but the key.
   PixelSampler(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
                uint64_t key);

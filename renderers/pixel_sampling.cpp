@@ -48,8 +48,8 @@ cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const Floa
   const cv::Size size(rays.width_px(), rays.height_px());
   Film film(size.width, size.height, light.channel_count());
   if (options.samples_per_pixel < kLanes) {
-    for (int row = 0; row < size.height; row += PixelSampler::kBlock) {
-      for (int column = 0; column < size.width; column += PixelSampler::kBlock) {
+    for (int row = 0; row < size.height; row += kBlockSide) {
+      for (int column = 0; column < size.width; column += kBlockSide) {
         sampler.SampleBlock({column, row}, options.samples_per_pixel, film);
       }
     }

@@ -29,7 +29,8 @@ SurfacePatterns::SurfacePatterns(const Scene& scene, const TriangleSoup& soup) :
     const double area_m2 = 0.5 * glm::length(glm::cross(b - a, c - a));
     Pattern& pattern = of_[t];
     pattern.size_m = static_cast<float>(std::sqrt(area_m2));
-    pattern.has_pattern = !mesh.colors.empty();
+    pattern.has_colors = !mesh.colors.empty();
+    pattern.has_pattern = pattern.has_colors;
     if (material.texture && !mesh.texture_coordinates.empty()) {
       pattern.has_pattern = true;
       pattern.texture = static_cast<int>(*material.texture);
@@ -51,7 +52,8 @@ glm::vec2 SurfacePatterns::CoordinatesAt(uint32_t triangle, float u, float v) co
 
 glm::vec3 SurfacePatterns::At(uint32_t triangle, float u, float v, float width_m) const {
   const Pattern& pattern = of_[triangle];
-  glm::vec3 factors = Interpolated(soup_.colors, soup_.triangles[triangle], u, v);
+  glm::vec3 factors(1.0f);
+  if (pattern.has_colors) factors = Interpolated(soup_.colors, soup_.triangles[triangle], u, v);
   if (pattern.texture < 0) return factors;
   const MipMap& map = mip_maps_[static_cast<size_t>(pattern.texture)];
   return factors *

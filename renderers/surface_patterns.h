@@ -30,6 +30,7 @@ class SurfacePatterns {
  private:
   struct Pattern {
     bool has_pattern = false;
+    bool has_colors = false;
     int texture = -1;  // Index into mip_maps_.
     float texels_per_m = 0.0f;
     float alpha_cutoff = 0.0f;

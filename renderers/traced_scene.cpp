@@ -43,18 +43,6 @@ EmbreeScene::Part PanePart(const TriangleSoup& soup) {
 
 }  // namespace
 
-float HitCosine(const RayPacket& packet, int lane) {
-  const RTCHit16& h = packet.hit;
-  const RTCRay16& r = packet.ray;
-  const float nn =
-      h.Ng_x[lane] * h.Ng_x[lane] + h.Ng_y[lane] * h.Ng_y[lane] + h.Ng_z[lane] * h.Ng_z[lane];
-  const float dd =
-      r.dir_x[lane] * r.dir_x[lane] + r.dir_y[lane] * r.dir_y[lane] + r.dir_z[lane] * r.dir_z[lane];
-  const float nd =
-      h.Ng_x[lane] * r.dir_x[lane] + h.Ng_y[lane] * r.dir_y[lane] + h.Ng_z[lane] * r.dir_z[lane];
-  return std::abs(nd) / std::sqrt(nn * dd);
-}
-
 TracedScene::TracedScene(const Scene& scene, InstructionSet instruction_set)
     : opaque_(MakeTriangleSoup(scene, Material::Kind::kLambert)),
       panes_(MakeTriangleSoup(scene, Material::Kind::kGlass)),

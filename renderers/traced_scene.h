@@ -57,9 +57,6 @@ class TracedScene {
   EmbreeScene pane_tracer_;
 };
 
-/// |cos| of the angle between the ray of a lane and the normal of what it hit.
-float HitCosine(const RayPacket& packet, int lane);
-
 /// Leaves only those lanes in the mask that have hit a pane; whether there are any.
 bool KeepPaneHits(const RayPacket& packet, LaneMask& mask);
 
