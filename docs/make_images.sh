@@ -1,12 +1,26 @@
 #!/usr/bin/env bash
-# Makes docs/images/paper.jpg from the pictures of a run: ./run && docs/make_images.sh [results/paper]
+# Makes the pictures of the README from those of two runs:
+#     ./run && ./run run gallery && docs/make_images.sh [results]
 # Needs ImageMagick (apt-get install imagemagick).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-pictures=${1:-results/paper}/pictures
+results=${1:-results}
+
+pictures=$results/paper/pictures
 stereo=("$pictures"/cell_*_stereo_stereo/paper-stereo)
 rgbd=("$pictures"/cell_*_near_rgbd/paper-rgbd)
 montage \
   "${stereo[0]}"/{left,1_rectified,2_depth_image,3_closed_contour}.png \
   "${rgbd[1]}"/{color,depth,2_segmentation,3_range_image}.png \
   -background white -tile 4x2 -geometry 400x280+4+4 -quality 88 docs/images/paper.jpg
+
+# Rows: the left stereo camera, the colour camera, the depth image; columns: four lights.
+shots=()
+for shot in stereo/paper-stereo/left rgbd/paper-rgbd/color rgbd/paper-rgbd/depth; do
+  for light in overcast noon low-sun night; do
+    folder=("$results"/gallery/pictures/cell_*_"${light}_${shot%%/*}")
+    shots+=("${folder[0]}/${shot#*/}.png")
+  done
+done
+montage "${shots[@]}" -background white -tile 4x3 -geometry 360x270+4+4 -quality 88 \
+  docs/images/gallery.jpg
