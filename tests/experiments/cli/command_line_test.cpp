@@ -42,8 +42,8 @@ constexpr const char* kStudy =
     "  distance_m: [1.4]\n";
 
 TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
-  for (const char* command :
-       {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd", "list"}) {
+  for (const char* command : {"", "run", "render", "replay", "detect", "detect stereo",
+                              "detect rgbd", "list", "export"}) {
     const Outcome outcome = Fenestra(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;
@@ -137,6 +137,43 @@ TEST(CommandLineTest, RunReplayRenderAndDetectAgree) {
   const auto truth = nlohmann::json::parse(ReadFile(folder / "trial/truth/truth.json"));
   EXPECT_NEAR(found["centroid_m"][2].get<double>(), truth["target"]["centroid_m"][2].get<double>(),
               0.1);
+}
+
+TEST(CommandLineTest, AnExportedSceneRendersWithTheTruthOfItsTrial) {
+  const TemporaryFolder folder;
+  const std::string study = folder.Write("tiny.yaml", kStudy).string();
+  const std::string scene = (folder / "scene.glb").string();
+  ASSERT_EQ(Fenestra("export " + study + " --out " + scene).exit_code, 0);
+  const std::string views = (folder / "views").string();
+  const Outcome render = Fenestra(
+      "render " + scene + " --camera depth --sky cie_overcast --sun-lx 1000 --out " + views);
+  ASSERT_EQ(render.exit_code, 0) << render.text;
+  EXPECT_TRUE(std::filesystem::exists(folder / "views/depth/color.png"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "views/depth/scene.exr"));
+  ASSERT_EQ(Fenestra("render " + study + " --out " + (folder / "trial").string()).exit_code, 0);
+  const auto of_trial = nlohmann::json::parse(ReadFile(folder / "trial/truth/truth.json"));
+  const auto of_scene = nlohmann::json::parse(ReadFile(folder / "views/depth/truth.json"));
+  for (const size_t axis : {0u, 1u, 2u}) {
+    EXPECT_NEAR(of_scene["target"]["centroid_m"][axis].get<double>(),
+                of_trial["target"]["centroid_m"][axis].get<double>(), 1e-12);
+  }
+  EXPECT_THAT(Fenestra("render " + scene + " --camera depht --out " + views).text,
+              HasSubstr("Did you mean 'depth'?"));
+}
+
+TEST(CommandLineTest, BrokenSceneFilesAreRefusedWithTheirPlace) {
+  const TemporaryFolder folder;
+  const std::string broken =
+      folder.Write("broken.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 7}]})")
+          .string();
+  const std::string out = (folder / "out").string();
+  const Outcome outcome = Fenestra("render " + broken + " --out " + out);
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.text, HasSubstr("/nodes/0/mesh"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+  EXPECT_EQ(Fenestra("render " + (folder / "missing.glb").string() + " --out " + out).exit_code, 2);
+  EXPECT_EQ(Fenestra("export paper --cell 99 --out " + (folder / "x.glb").string()).exit_code, 2);
+  EXPECT_EQ(Fenestra("export paper --out " + (folder / "x.obj").string()).exit_code, 2);
 }
 
 TEST(CommandLineTest, DetectRefusesWhatItCannotUse) {
