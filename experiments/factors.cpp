@@ -101,8 +101,9 @@ void AddStereoCameras(Table& t) {
       .Number("stereo_translation_tolerance_mm", FIELD(stereo.translation_tolerance_m),
               {0.0, 50.0, kMilli},
               "Error of the calibrated translation, standard deviation per axis.")
-      .Integer("stereo_edge_samples", FIELD(stereo.edge_samples_per_pixel), {4, 256},
-               "Rays through a pixel that an edge crosses: 4, 16, 64 or 256.");
+      .Integer(
+          "stereo_edge_samples", FIELD(stereo.edge_samples_per_pixel), {4, 256},
+          "Rays through a pixel with more in it than one edge: 16, 64 or 256; 4: as elsewhere.");
 }
 
 void AddStereoImages(Table& t) {
@@ -192,8 +193,9 @@ void AddRgbdColor(Table& t) {
               "Mean of the sRGB-encoded image, with automatic exposure.")
       .Number("rgbd_color_exposure_ms", FIELD(rgbd.color_exposure_s), {1e-4, 1e4, kMilli},
               "Exposure without automatic exposure.")
-      .Integer("rgbd_edge_samples", FIELD(rgbd.edge_samples_per_pixel), {4, 256},
-               "Rays through a pixel that an edge crosses: 4, 16, 64 or 256.");
+      .Integer(
+          "rgbd_edge_samples", FIELD(rgbd.edge_samples_per_pixel), {4, 256},
+          "Rays through a pixel with more in it than one edge: 16, 64 or 256; 4: as elsewhere.");
 }
 
 #undef FIELD

@@ -27,7 +27,7 @@ struct StereoRigOptions {
   /// camera's rotation about and translation along each axis. The size of a good calibration.
   double rotation_tolerance_rad = 1e-4;
   double translation_tolerance_m = 1e-4;
-  /// 256 samples where an edge crosses, see RenderOptions.
+  /// Where more than one edge crosses a pixel; see RenderOptions.
   int edge_samples_per_pixel = 256;
 };
 
