@@ -140,13 +140,10 @@ def add_sky(scene, light):
     nodes["Background"].inputs["Color"].default_value = (1.0, 1.0, 1.0, 1.0)
 
 
-def set_up_cycles(scene, samples, bounces, seed=0, threads=0):
+def set_up_cycles(scene, samples, bounces, seed=0):
     """Path tracing without anything that trades truth for calm pictures."""
     scene.render.engine = "CYCLES"
     scene.view_settings.view_transform = "Raw"
-    scene.render.threads_mode = "FIXED" if threads else "AUTO"
-    if threads:
-        scene.render.threads = threads
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.samples = samples

@@ -22,10 +22,20 @@ class Depth:
 class Surface:
     name: str
     blocks: int
-    bias: float  # Median over the blocks of theirs / ours - 1, all colours together.
-    median: float  # Of its absolute value.
+    mean: float  # Theirs over ours - 1, of the sums over all blocks and colours.
+    mean_noise: float  # Standard deviation of that, from what two seeds of Cycles differ.
+    median: float  # Of |theirs over ours - 1| over blocks and colours.
     p95: float
-    noise: float  # Median of what two seeds of Cycles differ, as noise of their mean.
+    noise: float  # Median of what two seeds differ in a block, as noise of their mean.
+
+    def agrees(self, most_error):
+        """Whether mean and median are within the error; noise alone condemns neither."""
+        mean_agrees = abs(self.mean) <= most_error + 3.0 * self.mean_noise
+        return mean_agrees and (self.median <= most_error or self.is_noisy(most_error))
+
+    def is_noisy(self, most_error):
+        """Whether too noisy for its median to be judged."""
+        return self.noise > most_error / 4.0
 
 
 def compare_depth(ours, theirs):
@@ -51,12 +61,16 @@ def _compare_surface(name, mask, ours, seeds):
     mean = lambda light: _block_sums(light * mask[:, :, None])[enough]
     reference = mean(ours)
     first, second = (mean(light) for light in seeds)
-    relative = 0.5 * (first + second) / reference - 1.0
-    noise = 0.5 * np.abs(first - second) / reference
+    theirs = 0.5 * (first + second)
+    relative = theirs / reference - 1.0
+    deviation = 0.5 * np.abs(first - second)
+    noise = deviation / reference
     return Surface(
         name,
         int(enough.sum()),
-        np.median(relative),
+        theirs.sum() / reference.sum() - 1.0,
+        # A colour's noise is that of the others too, as all come from the same paths.
+        np.sqrt((deviation.sum(axis=1) ** 2).sum()) / reference.sum(),
         np.median(np.abs(relative)),
         np.percentile(np.abs(relative), 95),
         np.median(noise),
