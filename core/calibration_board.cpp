@@ -1,0 +1,37 @@
+#include "core/calibration_board.h"
+
+#include <fmt/format.h>
+
+#include "core/input_error.h"
+
+namespace fenestra {
+
+void Validate(const CalibrationBoard& board) {
+  std::vector<InputFault> faults;
+  const auto demand = [&faults](bool holds, std::string message) {
+    if (!holds) faults.push_back({"calibration board", 0, 0, std::move(message)});
+  };
+  constexpr int kFewest = 3;
+  constexpr int kMost = 64;
+  demand(board.columns >= kFewest && board.columns <= kMost && board.rows >= kFewest &&
+             board.rows <= kMost,
+         fmt::format("{} x {} squares are not between {} and {} a side", board.columns, board.rows,
+                     kFewest, kMost));
+  demand(board.square_m > 0.0, fmt::format("squares of {} m are not positive", board.square_m));
+  if (board.kind == BoardKind::kCharuco) {
+    demand(board.marker_m > 0.0 && board.marker_m < board.square_m,
+           fmt::format("markers of {} m do not fit into squares of {} m", board.marker_m,
+                       board.square_m));
+    const int markers = board.columns * board.rows / 2;
+    demand(markers <= kMarkerCount,
+           fmt::format("{} white squares, but only {} different markers", markers, kMarkerCount));
+  } else {
+    demand((board.columns + board.rows) % 2 == 1,
+           fmt::format("a chessboard of {} x {} squares looks the same upside down: one number has "
+                       "to be odd and the other one even",
+                       board.columns, board.rows));
+  }
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace fenestra
