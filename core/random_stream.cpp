@@ -2,10 +2,12 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
+#include <array>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
-#include "core/check.h"
+#include "core/random_words.h"
 
 namespace fenestra {
 namespace {
@@ -35,13 +37,16 @@ uint64_t Join(uint32_t low, uint32_t high) {
   return static_cast<uint64_t>(low) | (static_cast<uint64_t>(high) << 32);
 }
 
-// Applies `convert` to consecutive 32-bit words of the sequence `use` of the key.
+// Applies `convert` to consecutive runs of 32-bit words of the sequence `use` of the key.
 template <typename Convert>
 void FillWords(uint64_t key, Use use, std::span<float> out, Convert convert) {
-  for (size_t first = 0; first < out.size(); first += 4) {
-    const Philox::ctr_type words = Cipher(key, first / 4, 0, use);
-    const size_t count = std::min<size_t>(4, out.size() - first);
-    for (size_t i = 0; i < count; ++i) out[first + i] = convert(words.v[i]);
+  constexpr size_t kRun = 1024;
+  std::array<uint32_t, kRun> words;
+  for (size_t first = 0; first < out.size(); first += kRun) {
+    const size_t count = std::min(kRun, out.size() - first);
+    const std::span<uint32_t> run(words.data(), count);
+    FillPhiloxWords(key, static_cast<uint32_t>(use), first / 4, run);
+    convert(run, out.subspan(first, count));
   }
 }
 
@@ -64,43 +69,15 @@ double RandomStream::Normal(uint64_t index) const {
 }
 
 void RandomStream::FillNormals(std::span<float> out) const {
-  FillWords(key_, Use::kNormals, out, [](uint32_t word) {
-    // The lower half of the distribution is computed and the sign bit mirrors it: the tails keep
-    // all bits that a float near 1 would lose.
-    const float p = (static_cast<float>(word >> 1) + 0.5f) * 0x1p-32f;  // (0, 1/2]
-    const float x = NormalQuantileSingle(std::min(p, 0.5f));
-    return (word & 1u) != 0 ? -x : x;
-  });
+  FillWords(key_, Use::kNormals, out, NormalsOfWords);
 }
 
 void RandomStream::FillUniforms(std::span<float> out) const {
-  FillWords(key_, Use::kUniforms, out,
-            [](uint32_t word) { return (static_cast<float>(word >> 8) + 0.5f) * 0x1p-24f; });
-}
-
-float NormalQuantileSingle(float p) {
-  const float q = p - 0.5f;
-  if (std::abs(q) <= 0.425f) {
-    const float r = 0.180625f - q * q;
-    return q *
-           (((5.9109374720e+01f * r + 1.5929113202e+02f) * r + 5.0434271938e+01f) * r +
-            3.3871327179e+00f) /
-           (((6.7187563600e+01f * r + 7.8757757664e+01f) * r + 1.7895169469e+01f) * r + 1.0f);
-  }
-  float r = std::sqrt(-std::log(q < 0.0f ? p : 1.0f - p));
-  float x;
-  if (r <= 5.0f) {
-    r -= 1.6f;
-    x = (((1.7023821103e-01f * r + 1.3067284816e+00f) * r + 2.7568153900e+00f) * r +
-         1.4234372777e+00f) /
-        ((1.2021132975e-01f * r + 7.3700164250e-01f) * r + 1.0f);
-  } else {
-    r -= 5.0f;
-    x = (((1.7337203997e-02f * r + 4.2868294337e-01f) * r + 3.0812263860e+00f) * r +
-         6.6579051150e+00f) /
-        ((1.2258202635e-02f * r + 2.4197894225e-01f) * r + 1.0f);
-  }
-  return q < 0.0f ? -x : x;
+  FillWords(key_, Use::kUniforms, out, [](std::span<uint32_t> words, std::span<float> uniforms) {
+    for (size_t i = 0; i < words.size(); ++i) {
+      uniforms[i] = (static_cast<float>(words[i] >> 8) + 0.5f) * 0x1p-24f;
+    }
+  });
 }
 
 }  // namespace fenestra

@@ -39,8 +39,4 @@ class RandomStream {
   uint64_t key_;
 };
 
-/// Quantile of the standard normal distribution for 0 < p < 1, to about 7 digits: algorithm
-/// PPND7 of M. J. Wichura, "The percentage points of the normal distribution", AS 241, 1988.
-float NormalQuantileSingle(float p);
-
 }  // namespace fenestra

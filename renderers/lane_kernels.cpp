@@ -5,7 +5,7 @@
 
 #include "renderers/fresnel.h"
 #include "renderers/net_samples.h"
-#include "renderers/wide.h"
+#include "core/wide.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/check.h"
 #include "renderers/diffuse_light.h"
-#include "renderers/wide.h"
+#include "core/wide.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "renderers/wide.h"
+#include "core/wide.h"
 
 namespace fenestra {
 

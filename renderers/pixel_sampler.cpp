@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderers/wide.h"
+#include "core/wide.h"
 
 namespace fenestra {
 namespace {

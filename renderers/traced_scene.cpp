@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "renderers/lane_kernels.h"
-#include "renderers/wide.h"
+#include "core/wide.h"
 
 namespace fenestra {
 namespace {
