@@ -6,17 +6,6 @@
 #include "experiments/trial_scene.h"
 
 namespace fenestra {
-namespace {
-
-SensorCalibration NominalOf(const StereoRig& rig) {
-  return rig.nominal();
-}
-SensorCalibration NominalOf(const StructuredLightSensor& sensor) {
-  return sensor.nominal();
-}
-
-}  // namespace
-
 CellBench::World::World(const TrialSettings& settings)
     : scene(MakeScene(settings)), caster(scene) {}
 
@@ -30,50 +19,54 @@ CellBench::CellBench(const Study& study, const Cell& cell)
     sensor_is_drawn |= group == FactorGroup::kStereo || group == FactorGroup::kRgbd;
   }
   if (!scene_is_drawn) shared_world_ = std::make_shared<const World>(cell.settings);
+  if (cell.sensor == SensorKind::kStereo) sensor_is_drawn |= cell.settings.stereo_rig_per_trial;
   if (!sensor_is_drawn) {
-    shared_sensor_ = std::make_shared<const Sensor>(MakeSensor(cell.settings, cell.sensor));
-    const SensorCalibration calibration =
-        std::visit([](const auto& sensor) { return NominalOf(sensor); }, *shared_sensor_);
+    shared_instrument_ = std::make_shared<const Instrument>(
+        MakeInstrument(cell.settings, TrialStream(study, cell, 0)));
     for (const DetectorChoice& choice : detector_choices_) {
-      shared_detectors_.push_back(MakeDetector(choice.name, calibration, choice.options));
+      shared_detectors_.push_back(
+          MakeDetector(choice.name, shared_instrument_->calibration, choice.options));
     }
   }
 }
 
-CellBench::Sensor CellBench::MakeSensor(const TrialSettings& settings, SensorKind kind) {
-  if (kind == SensorKind::kStereo) return StereoRig(settings.stereo);
-  return StructuredLightSensor(settings.rgbd);
+CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
+                                                const RandomStream& trial) const {
+  if (cell_.sensor == SensorKind::kRgbd) {
+    StructuredLightSensor sensor(settings.rgbd);
+    const RgbdCalibration calibration = sensor.nominal();
+    return {.sensor = std::move(sensor), .calibration = calibration};
+  }
+  StereoRig rig(settings.stereo, trial.Child("rig"));
+  const StereoCalibration calibration =
+      CalibrationOf(rig, settings.stereo_calibration, trial.Child("calibration"));
+  return {.sensor = std::move(rig), .calibration = calibration};
 }
 
 std::shared_ptr<const CellBench::World> CellBench::WorldOf(const TrialSettings& settings) const {
   return shared_world_ ? shared_world_ : std::make_shared<const World>(settings);
 }
 
-std::shared_ptr<const CellBench::Sensor> CellBench::SensorOf(const TrialSettings& settings) const {
-  if (shared_sensor_) return shared_sensor_;
-  return std::make_shared<const Sensor>(MakeSensor(settings, cell_.sensor));
+std::shared_ptr<const CellBench::Instrument> CellBench::InstrumentOf(const Trial& trial) const {
+  if (shared_instrument_) return shared_instrument_;
+  return std::make_shared<const Instrument>(MakeInstrument(trial.settings, trial.stream));
 }
 
 SimulatedTrial CellBench::Simulate(int trial_index) const {
   Trial trial = SampleTrial(study_, cell_, trial_index);
   const TrialSettings& settings = trial.settings;
   const auto world = WorldOf(settings);
-  const auto sensor = SensorOf(settings);
+  const auto instrument = InstrumentOf(trial);
   const Pose X_WB = RigPoseOf(settings, world->scene);
   const RandomStream shot = trial.stream.Child("shot");
-
-  if (const auto* rig = std::get_if<StereoRig>(sensor.get())) {
-    const StereoRig::TrueState state = rig->Draw(trial.stream.Child("rig"));
-    return {.trial = trial,
-            .calibration = rig->nominal(),
-            .observation = rig->Observe(world->caster, settings.lighting, X_WB, state, shot),
-            .truth = rig->Truth(world->scene, X_WB, state)};
-  }
-  const auto& rgbd = std::get<StructuredLightSensor>(*sensor);
-  return {.trial = trial,
-          .calibration = rgbd.nominal(),
-          .observation = rgbd.Observe(world->caster, settings.lighting, X_WB, shot),
-          .truth = rgbd.Truth(world->scene, X_WB)};
+  return std::visit(
+      [&](const auto& sensor) -> SimulatedTrial {
+        return {.trial = trial,
+                .calibration = instrument->calibration,
+                .observation = sensor.Observe(world->caster, settings.lighting, X_WB, shot),
+                .truth = sensor.Truth(world->scene, X_WB)};
+      },
+      instrument->sensor);
 }
 
 Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
@@ -109,14 +102,11 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
 TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {
   const TrialSettings& settings = simulated.trial.settings;
   const auto world = WorldOf(settings);
-  const auto sensor = SensorOf(settings);
+  const auto instrument = InstrumentOf(simulated.trial);
   const Pose X_WB = RigPoseOf(settings, world->scene);
-  if (const auto* rig = std::get_if<StereoRig>(sensor.get())) {
-    const StereoRig::TrueState state = rig->Draw(simulated.trial.stream.Child("rig"));
-    return rig->LeftTruth(world->caster, settings.lighting, X_WB, state);
-  }
-  return std::get<StructuredLightSensor>(*sensor).DepthTruth(world->caster, settings.lighting,
-                                                             X_WB);
+  return std::visit(
+      [&](const auto& sensor) { return sensor.PixelTruth(world->caster, settings.lighting, X_WB); },
+      instrument->sensor);
 }
 
 }  // namespace fenestra

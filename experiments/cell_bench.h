@@ -20,7 +20,7 @@ namespace fenestra {
 /// One trial up to the point where detectors take over.
 struct SimulatedTrial {
   Trial trial;
-  SensorCalibration calibration;  ///< Nominal: what detectors are told.
+  SensorCalibration calibration;  ///< What detectors are told.
   Observation observation;
   GroundTruth truth;
 };
@@ -59,18 +59,23 @@ class CellBench {
     Scene scene;
     RayCaster caster;
   };
-  using Sensor = std::variant<StereoRig, StructuredLightSensor>;
+  /// A sensor and what detectors are told of it.
+  struct Instrument {
+    std::variant<StereoRig, StructuredLightSensor> sensor;
+    SensorCalibration calibration;
+  };
 
-  static Sensor MakeSensor(const TrialSettings& settings, SensorKind kind);
+  Instrument MakeInstrument(const TrialSettings& settings, const RandomStream& trial) const;
   std::shared_ptr<const World> WorldOf(const TrialSettings& settings) const;
-  std::shared_ptr<const Sensor> SensorOf(const TrialSettings& settings) const;
+  std::shared_ptr<const Instrument> InstrumentOf(const Trial& trial) const;
 
   Study study_;
   Cell cell_;
   std::vector<DetectorChoice> detector_choices_;
-  std::shared_ptr<const World> shared_world_;                ///< Null if trials draw the scene.
-  std::shared_ptr<const Sensor> shared_sensor_;              ///< Null if trials draw the sensor.
-  std::vector<std::unique_ptr<Detector>> shared_detectors_;  ///< Empty if trials draw the sensor.
+  std::shared_ptr<const World> shared_world_;            ///< Null if trials draw the scene.
+  std::shared_ptr<const Instrument> shared_instrument_;  ///< Null if trials draw the sensor.
+  /// Empty if trials draw the sensor.
+  std::vector<std::unique_ptr<Detector>> shared_detectors_;
 };
 
 }  // namespace fenestra

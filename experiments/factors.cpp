@@ -13,6 +13,7 @@ using Table = ParameterTable<TrialSettings>;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilli = 1e-3;
 constexpr double kMicro = 1e-6;
+constexpr double kPercent = 1e-2;
 
 // The field of the settings that a factor stands for.
 // clang-format off
@@ -95,15 +96,50 @@ void AddStereoCameras(Table& t) {
               "Radial distortion, sixth order.")
       .Number("stereo_p1", FIELD(stereo.distortion.p1), {-0.1, 0.1}, "Tangential distortion.")
       .Number("stereo_p2", FIELD(stereo.distortion.p2), {-0.1, 0.1}, "Tangential distortion.")
-      .Number("stereo_rotation_tolerance_mrad", FIELD(stereo.rotation_tolerance_rad),
-              {0.0, 50.0, kMilli},
-              "Error of the calibrated rotation between the cameras, standard deviation per axis.")
-      .Number("stereo_translation_tolerance_mm", FIELD(stereo.translation_tolerance_m),
-              {0.0, 50.0, kMilli},
-              "Error of the calibrated translation, standard deviation per axis.")
       .Integer(
           "stereo_edge_samples", FIELD(stereo.edge_samples_per_pixel), {4, 256},
           "Rays through a pixel with more in it than one edge: 16, 64 or 256; 4: as elsewhere.");
+}
+
+void AddStereoRig(Table& t) {
+  t.Switch("stereo_rig_per_trial", FIELD(stereo_rig_per_trial),
+           "Whether each trial has a rig of its own, within the tolerances; false: all share one.")
+      .Switch("stereo_as_designed", FIELD(stereo.as_designed),
+              "A rig without any departure from its design; tolerances do not count then.")
+      .Number("stereo_focal_tolerance_percent", FIELD(stereo.tolerances.focal_length),
+              {0.0, 20.0, kPercent}, "Of each lens as built; standard deviation.")
+      .Number("stereo_principal_point_tolerance_px", FIELD(stereo.tolerances.principal_point_px),
+              {0.0, 100.0}, "Of each camera as built; standard deviation per axis.")
+      .Number("stereo_distortion_tolerance_percent", FIELD(stereo.tolerances.distortion),
+              {0.0, 50.0, kPercent}, "Of each coefficient as built; standard deviation.")
+      .Number("stereo_rotation_tolerance_mrad", FIELD(stereo.tolerances.rotation_rad),
+              {0.0, 50.0, kMilli}, "Of each camera as mounted; standard deviation per axis.")
+      .Number("stereo_translation_tolerance_mm", FIELD(stereo.tolerances.translation_m),
+              {0.0, 50.0, kMilli}, "Of each camera as mounted; standard deviation per axis.")
+      .Choice("stereo_calibration", FIELD(stereo_calibration.source),
+              {"exact", "perturbed", "design"},
+              "What detectors are told: the rig as built, the same with a random error, or as "
+              "designed.")
+      .Number("stereo_calibration_rotation_error_mrad",
+              FIELD(stereo_calibration.rotation_error_rad), {0.0, 50.0, kMilli},
+              "With a perturbed calibration: between the cameras, standard deviation per axis.")
+      .Number("stereo_calibration_translation_error_mm",
+              FIELD(stereo_calibration.translation_error_m), {0.0, 50.0, kMilli},
+              "With a perturbed calibration: between the cameras, standard deviation per axis.")
+      .Number("stereo_speed_right_m_s", FIELD(stereo.motion.velocity_B.x()), {-100.0, 100.0},
+              "Of the rig, along its own axis.")
+      .Number("stereo_speed_down_m_s", FIELD(stereo.motion.velocity_B.y()), {-100.0, 100.0},
+              "Of the rig, along its own axis.")
+      .Number("stereo_speed_forward_m_s", FIELD(stereo.motion.velocity_B.z()), {-100.0, 100.0},
+              "Of the rig, along its own axis.")
+      .Number("stereo_pitch_rate_deg_s", FIELD(stereo.motion.angular_velocity_B.x()),
+              {-2000.0, 2000.0, kDegree}, "Turn of the rig upwards.")
+      .Number("stereo_yaw_rate_deg_s", FIELD(stereo.motion.angular_velocity_B.y()),
+              {-2000.0, 2000.0, kDegree}, "Turn of the rig to the right.")
+      .Number("stereo_roll_rate_deg_s", FIELD(stereo.motion.angular_velocity_B.z()),
+              {-2000.0, 2000.0, kDegree}, "Turn of the rig clockwise.")
+      .Number("stereo_trigger_skew_us", FIELD(stereo.trigger_skew_s), {-1e6, 1e6, kMicro},
+              "By how much the right camera's exposure is later.");
 }
 
 void AddStereoImages(Table& t) {
@@ -111,24 +147,59 @@ void AddStereoImages(Table& t) {
       .Number("stereo_transmission", FIELD(stereo.lens.transmission), {0.01, 1.0},
               "Share of the light that the lens lets through.")
       .Number("stereo_blur_px", FIELD(stereo.lens.blur_sigma_px), {0.0, 10.0},
-              "Standard deviation of the lens' Gaussian point spread.")
-      .Number("stereo_electrons_per_lux_s", FIELD(stereo.sensor.electrons_per_lux_s), {1.0, 1e8},
-              "Sensitivity of a pixel.")
-      .Number("stereo_saturation_e", FIELD(stereo.sensor.saturation_e), {10.0, 1e7},
-              "Electrons at full scale.")
+              "Standard deviation of the lens' Gaussian point spread on the axis.")
+      .Number("stereo_corner_blur_px", FIELD(stereo.lens.corner_blur_sigma_px), {0.0, 10.0},
+              "The same in the image's corners; not less than on the axis.")
+      .Number("stereo_corner_illumination", FIELD(stereo.lens.corner_illumination), {0.05, 1.0},
+              "Share of the light that reaches the corners, besides natural vignetting.")
+      .Choice("stereo_illuminant", FIELD(stereo.spectrum.illuminant), {"daylight", "incandescent"},
+              "Spectrum of the light for the sensor's response; lux stay lux.")
+      .Number("stereo_cut_off_nm", FIELD(stereo.spectrum.cut_off_nm), {400.0, 1100.0},
+              "Longest wavelength that the lens' filter lets pass; from 1005: no filter.")
+      .Number("stereo_quantum_efficiency_scale", FIELD(stereo.spectrum.quantum_efficiency_scale),
+              {0.01, 1.7}, "Quantum efficiency as a multiple of the MT9V034's curve.");
+}
+
+void AddStereoSensor(Table& t) {
+  t.Number("stereo_saturation_e", FIELD(stereo.sensor.saturation_e), {10.0, 1e7},
+           "Electrons at full scale and gain 1.")
       .Number("stereo_read_noise_e", FIELD(stereo.sensor.read_noise_e), {0.0, 1e4},
-              "Standard deviation of the read noise.")
-      .Switch("stereo_noise", FIELD(stereo.sensor.noise), "Shot noise and read noise.")
+              "Temporal noise of a pixel in the dark.")
+      .Number("stereo_dark_current_e_s", FIELD(stereo.sensor.dark_current_e_s), {0.0, 1e6},
+              "At 25 °C.")
+      .Number("stereo_dark_current_doubling_k", FIELD(stereo.sensor.dark_current_doubling_k),
+              {1.0, 100.0}, "Rise in temperature that doubles the dark current.")
+      .Number("stereo_temperature_c", FIELD(stereo.sensor.temperature_c), {-60.0, 120.0},
+              "Of the sensor.")
+      .Number("stereo_dsnu_e", FIELD(stereo.sensor.dsnu_e), {0.0, 1e4},
+              "Dark signal non-uniformity: spread of the pixels' offsets.")
+      .Number("stereo_prnu_percent", FIELD(stereo.sensor.prnu), {0.0, 50.0, kPercent},
+              "Photo response non-uniformity: spread of the pixels' sensitivities.")
+      .Number("stereo_row_noise_e", FIELD(stereo.sensor.row_noise_e), {0.0, 1e4},
+              "Offset that a row's pixels share in one frame.")
+      .Integer("stereo_adc_bits", FIELD(stereo.sensor.adc_bits), {1, 16}, "Of the sensor's ADC.")
+      .Integer("stereo_output_bits", FIELD(stereo.sensor.output_bits), {1, 16},
+               "Of the image, at most the ADC's; a detector sees the upper eight.")
+      .Number("stereo_black_level_dn", FIELD(stereo.sensor.black_level_dn), {0.0, 65535.0},
+              "Signal without light, in steps of the ADC.")
+      .Switch("stereo_noise", FIELD(stereo.sensor.noise),
+              "All noise that differs from frame to frame.")
+      .Switch("stereo_fixed_pattern", FIELD(stereo.sensor.fixed_pattern),
+              "Non-uniformity of the pixels.")
       .Switch("stereo_auto_exposure", FIELD(stereo.exposure.automatic),
-              "Choose the exposure by the image's mean.")
+              "Choose exposure time and gain by the image's mean.")
       .Number("stereo_exposure_set_point", FIELD(stereo.exposure.set_point), {0.01, 0.99},
               "Mean signal as a fraction of full scale, with automatic exposure.")
       .Number("stereo_shortest_exposure_ms", FIELD(stereo.exposure.shortest_s), {1e-4, 1e4, kMilli},
               "Limit of the automatic exposure.")
       .Number("stereo_longest_exposure_ms", FIELD(stereo.exposure.longest_s), {1e-4, 1e4, kMilli},
-              "Limit of the automatic exposure.")
+              "Limit of the automatic exposure; beyond it gain helps.")
+      .Number("stereo_largest_gain", FIELD(stereo.exposure.largest_gain), {1.0, 100.0},
+              "Limit of the automatic gain.")
       .Number("stereo_exposure_ms", FIELD(stereo.exposure.exposure_s), {1e-4, 1e4, kMilli},
-              "Exposure without automatic exposure.");
+              "Exposure without automatic exposure.")
+      .Number("stereo_gain", FIELD(stereo.exposure.gain), {1.0, 100.0},
+              "Analogue gain without automatic exposure.");
 }
 
 void AddRgbdDepth(Table& t) {
@@ -179,14 +250,25 @@ void AddRgbdColor(Table& t) {
               "Share of the light that the lens lets through.")
       .Number("rgbd_color_blur_px", FIELD(rgbd.color_lens.blur_sigma_px), {0.0, 10.0},
               "Standard deviation of the lens' Gaussian point spread.")
-      .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color_sensor.electrons_per_lux_s),
-              {1.0, 1e8}, "Sensitivity of a pixel.")
+      .Number("rgbd_color_corner_blur_px", FIELD(rgbd.color_lens.corner_blur_sigma_px), {0.0, 10.0},
+              "The same in the image's corners; not less than on the axis.")
+      .Number("rgbd_color_red_blur", FIELD(rgbd.color_red_blur), {0.1, 10.0},
+              "Blur in red as a multiple of that in green.")
+      .Number("rgbd_color_blue_blur", FIELD(rgbd.color_blue_blur), {0.1, 10.0},
+              "Blur in blue as a multiple of that in green.")
+      .Number("rgbd_color_corner_illumination", FIELD(rgbd.color_lens.corner_illumination),
+              {0.05, 1.0},
+              "Share of the light that reaches the corners, besides natural vignetting.")
+      .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color_electrons_per_lux_s), {1.0, 1e8},
+              "Sensitivity of a pixel.")
       .Number("rgbd_color_saturation_e", FIELD(rgbd.color_sensor.saturation_e), {10.0, 1e7},
               "Electrons at full scale.")
       .Number("rgbd_color_read_noise_e", FIELD(rgbd.color_sensor.read_noise_e), {0.0, 1e4},
               "Standard deviation of the read noise.")
       .Switch("rgbd_color_noise", FIELD(rgbd.color_sensor.noise),
-              "Shot noise and read noise of the colour image.")
+              "Noise of the colour image that differs from frame to frame.")
+      .Switch("rgbd_color_fixed_pattern", FIELD(rgbd.color_sensor.fixed_pattern),
+              "Non-uniformity of the colour camera's pixels.")
       .Switch("rgbd_color_auto_exposure", FIELD(rgbd.color_auto_exposure),
               "Choose the exposure by the image's mean.")
       .Number("rgbd_color_mean_dn", FIELD(rgbd.color_mean_dn), {1.0, 254.0},
@@ -218,7 +300,9 @@ const GroupedTable& AllFactors() {
     factors.Add(FactorGroup::kFacade, AddFacadeFactors);
     factors.Add(FactorGroup::kLight, AddLight);
     factors.Add(FactorGroup::kStereo, AddStereoCameras);
+    factors.Add(FactorGroup::kStereo, AddStereoRig);
     factors.Add(FactorGroup::kStereo, AddStereoImages);
+    factors.Add(FactorGroup::kStereo, AddStereoSensor);
     factors.Add(FactorGroup::kRgbd, AddRgbdDepth);
     factors.Add(FactorGroup::kRgbd, AddRgbdColor);
     return factors;

@@ -10,11 +10,12 @@ Pose RigPoseOf(const TrialSettings& settings, const Scene& scene) {
 GltfScene TrialScene(const TrialSettings& settings) {
   GltfScene world{.scene = MakeScene(settings), .cameras = {}, .sun = {}, .notes = {}};
   const Pose X_WB = RigPoseOf(settings, world.scene);
-  const StereoRig rig(settings.stereo);
-  const StereoRig::TrueState nominal = rig.Nominal();
+  const StereoCalibration stereo = DesignOf(settings.stereo);
+  const Pose X_BL = Pose::Translation({-0.5 * settings.stereo.baseline_m, 0.0, 0.0});
+  const Pose X_BR = X_BL * stereo.X_RL.inverse();
   const RgbdCalibration rgbd = StructuredLightSensor(settings.rgbd).nominal();
-  world.cameras = {{.name = "left", .X_WC = X_WB * nominal.X_BL, .model = rig.nominal().left},
-                   {.name = "right", .X_WC = X_WB * nominal.X_BR, .model = rig.nominal().right},
+  world.cameras = {{.name = "left", .X_WC = X_WB * X_BL, .model = stereo.left},
+                   {.name = "right", .X_WC = X_WB * X_BR, .model = stereo.right},
                    {.name = "depth", .X_WC = X_WB, .model = rgbd.depth},
                    {.name = "color", .X_WC = X_WB * rgbd.X_KD.inverse(), .model = rgbd.color}};
   if (settings.lighting.sun.illuminance_lx > 0.0) world.sun = settings.lighting.sun;

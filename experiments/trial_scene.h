@@ -9,7 +9,7 @@ namespace fenestra {
 Pose RigPoseOf(const TrialSettings& settings, const Scene& scene);
 
 /// The world of a trial with the cameras of both sensors standing where the rig is: left, right,
-/// depth, color, as detectors are told that they are.
+/// depth, color, as designed.
 GltfScene TrialScene(const TrialSettings& settings);
 
 }  // namespace fenestra

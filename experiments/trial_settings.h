@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/observation.h"
+#include "experiments/calibration_choice.h"
 #include "scenes/facade.h"
 #include "scenes/lighting.h"
 #include "scenes/paper_target.h"
@@ -26,6 +27,10 @@ struct TrialSettings {
   Lighting lighting;
   Viewpoint viewpoint;
   StereoRigOptions stereo;
+  CalibrationChoice stereo_calibration;
+  /// Whether each trial has a stereo rig of its own, built and calibrated anew; otherwise all
+  /// trials of the study share one.
+  bool stereo_rig_per_trial = true;
   StructuredLightOptions rgbd;
 };
 

@@ -1,106 +1,167 @@
 #include "sim/image_sensor.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "core/check.h"
+#include "core/input_error.h"
+#include "core/wide.h"
 
 namespace fenestra {
 namespace {
 
-double DiscreteVariance(double sigma_px, int reach) {
-  double sum = 1.0;
-  double moment = 0.0;
-  for (int i = 1; i <= reach; ++i) {
-    const double weight = 2.0 * std::exp(-0.5 * i * i / (sigma_px * sigma_px));
-    sum += weight;
-    moment += weight * i * i;
+// Temperature at which dark current is stated.
+constexpr double kReferenceTemperature_c = 25.0;
+
+double AdcFullScale(const ImageSensorOptions& o) {
+  return static_cast<double>((1 << o.adc_bits) - 1);
+}
+
+// Output DN per ADC DN.
+double OutputScale(const ImageSensorOptions& o) {
+  return std::ldexp(1.0, o.output_bits - o.adc_bits);
+}
+
+cv::Mat1f Normals(const RandomStream& stream, cv::Size size) {
+  cv::Mat1f normals(size);
+  stream.FillNormals({normals.ptr<float>(), normals.total()});
+  return normals;
+}
+
+// The constants of one frame, in single precision.
+struct Frame {
+  float exposure_s;
+  float dark_e;
+  float read_variance_e2;
+  float dn_per_e;
+  float black_dn;
+  float full_scale_dn;
+};
+
+// Photo-electrons of a row, with sensitivities where there are any.
+FENESTRA_WIDE void CollectRow(const float* electrons_per_s, const float* sensitivity,
+                              const Frame& frame, float* mean_e, int count) {
+  for (int u = 0; u < count; ++u) {
+    mean_e[u] = electrons_per_s[u] * sensitivity[u] * frame.exposure_s + frame.dark_e;
   }
-  return moment / sum;
+}
+
+// mean_e becomes the electrons of one draw. z is standard normal.
+FENESTRA_WIDE void AddNoiseRow(const float* z, float read_variance_e2, float* mean_e, int count) {
+  for (int u = 0; u < count; ++u) {
+    const float mean = mean_e[u];
+    // At least a thousandth of an electron of noise keeps the division finite.
+    const float variance = mean + read_variance_e2 + 1e-6f;
+    const float skew = mean / (6.0f * variance);  // κ₃/(6 κ₂) [e]
+    const float deviation_squared = variance - 2.0f * skew * skew;
+    mean_e[u] = mean + std::sqrt(deviation_squared) * z[u] + skew * (z[u] * z[u] - 1.0f);
+  }
+}
+
+FENESTRA_WIDE void DigitiseRow(const float* electrons, const float* offset_e, float row_offset_e,
+                               const Frame& frame, int shift, uint16_t* dn, int count) {
+  for (int u = 0; u < count; ++u) {
+    const float value =
+        frame.black_dn + frame.dn_per_e * (electrons[u] + offset_e[u] + row_offset_e) + 0.5f;
+    const float clipped = std::min(std::max(value, 0.0f), frame.full_scale_dn);
+    dn[u] = static_cast<uint16_t>(static_cast<int>(clipped) >> shift);
+  }
 }
 
 }  // namespace
 
-double IlluminancePerLuminance(const LensOptions& lens) {
-  return std::numbers::pi * lens.transmission / (4.0 * lens.f_number * lens.f_number);
+void Validate(const ImageSensorOptions& o, const char* who) {
+  std::vector<InputFault> faults;
+  const auto demand = [&](bool holds, std::string message) {
+    if (!holds) faults.push_back({who, 0, 0, std::move(message)});
+  };
+  demand(o.saturation_e > 0.0, fmt::format("saturation {} e is not positive", o.saturation_e));
+  demand(o.read_noise_e >= 0.0 && o.dark_current_e_s >= 0.0 && o.dsnu_e >= 0.0 && o.prnu >= 0.0 &&
+             o.row_noise_e >= 0.0,
+         "noise figures must not be negative");
+  demand(o.dark_current_doubling_k > 0.0, "dark current must double over a positive temperature");
+  demand(o.adc_bits >= 1 && o.adc_bits <= 16,
+         fmt::format("an ADC of {} bits is not between 1 and 16", o.adc_bits));
+  demand(
+      o.output_bits >= 1 && o.output_bits <= o.adc_bits,
+      fmt::format("{} output bits are not between 1 and the ADC's {}", o.output_bits, o.adc_bits));
+  demand(o.black_level_dn >= 0.0 && o.black_level_dn < AdcFullScale(o),
+         fmt::format("black level {} DN is outside the ADC's range", o.black_level_dn));
+  if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-cv::Mat1f NaturalVignetting(const RayGrid& rays) {
-  cv::Mat1f cos4(rays.height_px(), rays.width_px());
-  for (int v = 0; v < cos4.rows; ++v) {
-    for (int u = 0; u < cos4.cols; ++u) {
-      const Eigen::Vector2f n = 0.25f * (rays.Corner(u, v) + rays.Corner(u + 1, v) +
-                                         rays.Corner(u, v + 1) + rays.Corner(u + 1, v + 1));
-      const float inverse_cos2 = 1.0f + n.squaredNorm();
-      cos4(v, u) = 1.0f / (inverse_cos2 * inverse_cos2);
-    }
+ExposureSetting ChooseExposure(const ExposureOptions& exposure, const ImageSensorOptions& sensor,
+                               double mean_electrons_per_s) {
+  if (!exposure.automatic) return {.exposure_s = exposure.exposure_s, .gain = exposure.gain};
+  const double wanted_s = exposure.set_point * sensor.saturation_e / mean_electrons_per_s;
+  // Written so that darkness (a division by zero) gives the most.
+  const double exposure_s = std::max(exposure.shortest_s, std::min(exposure.longest_s, wanted_s));
+  const double gain = std::max(1.0, std::min(exposure.largest_gain, wanted_s / exposure.longest_s));
+  return {.exposure_s = exposure_s, .gain = gain};
+}
+
+ImageSensor::ImageSensor(const ImageSensorOptions& options, cv::Size size,
+                         const RandomStream& camera)
+    : options_(options), size_(size) {
+  Validate(options_, "image sensor");
+  if (!options_.fixed_pattern) return;
+  dsnu_e_ = Normals(camera.Child("dsnu"), size) * options_.dsnu_e;
+  sensitivity_ = Normals(camera.Child("prnu"), size) * options_.prnu + 1.0;
+}
+
+double ImageSensor::DnPerElectron(double gain) const {
+  const double dn_per_e =
+      (AdcFullScale(options_) - options_.black_level_dn) / options_.saturation_e;
+  return gain * dn_per_e * OutputScale(options_);
+}
+
+double ImageSensor::BlackLevelDn() const {
+  // Shifting right rounds downwards: half an output step less half an ADC step, on average.
+  const double scale = OutputScale(options_);
+  return options_.black_level_dn * scale - 0.5 * (1.0 - scale);
+}
+
+double ImageSensor::DarkElectrons(double exposure_s) const {
+  const double doublings =
+      (options_.temperature_c - kReferenceTemperature_c) / options_.dark_current_doubling_k;
+  return options_.dark_current_e_s * std::exp2(doublings) * exposure_s;
+}
+
+cv::Mat1w ImageSensor::Expose(const cv::Mat1f& electrons_per_s, const ExposureSetting& exposure,
+                              const RandomStream& frame) const {
+  FENESTRA_CHECK(electrons_per_s.size() == size_, "the image must have the sensor's size");
+  const Frame constants{
+      .exposure_s = static_cast<float>(exposure.exposure_s),
+      .dark_e = static_cast<float>(DarkElectrons(exposure.exposure_s)),
+      .read_variance_e2 = static_cast<float>(options_.read_noise_e * options_.read_noise_e),
+      .dn_per_e = static_cast<float>(DnPerElectron(exposure.gain) / OutputScale(options_)),
+      .black_dn = static_cast<float>(options_.black_level_dn),
+      .full_scale_dn = static_cast<float>(AdcFullScale(options_))};
+  const auto width = static_cast<size_t>(size_.width);
+  const std::vector<float> ones(width, 1.0f);
+  const std::vector<float> zeros(width, 0.0f);
+  std::vector<float> row_offsets_e(static_cast<size_t>(size_.height), 0.0f);
+  cv::Mat1f z;
+  if (options_.noise) {
+    z = Normals(frame, size_);
+    frame.Child("rows").FillNormals(row_offsets_e);
+    for (float& offset : row_offsets_e) offset *= static_cast<float>(options_.row_noise_e);
   }
-  return cos4;
-}
-
-double ChooseExposure(const ExposureOptions& exposure, const ImageSensorOptions& sensor,
-                      const LensOptions& lens, double mean_luminance) {
-  if (!exposure.automatic) return exposure.exposure_s;
-  const double electrons_per_s =
-      sensor.electrons_per_lux_s * IlluminancePerLuminance(lens) * mean_luminance;
-  const double wanted_s = exposure.set_point * sensor.saturation_e / electrons_per_s;
-  // Written so that darkness (a division by zero) gives the longest time.
-  return std::max(exposure.shortest_s, std::min(exposure.longest_s, wanted_s));
-}
-
-std::vector<float> GaussianTaps(double sigma_px) {
-  FENESTRA_CHECK(sigma_px >= 0.0 && sigma_px <= 20.0, "blur must be between 0 and 20 px");
-  if (sigma_px < 0.01) return {1.0f};
-  const int reach = std::max(1, static_cast<int>(std::ceil(5.0 * sigma_px)));
-  // Sampling a narrow Gaussian at whole pixels loses variance (0.45 px would act as 0.38 px): find
-  // the one whose samples have the wanted variance.
-  const double variance = sigma_px * sigma_px;
-  double low = 0.05;
-  double high = sigma_px + 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (DiscreteVariance(middle, reach) < variance ? low : high) = middle;
+  const int shift = options_.adc_bits - options_.output_bits;
+  std::vector<float> electrons(width);
+  cv::Mat1w dn(size_);
+  for (int v = 0; v < size_.height; ++v) {
+    const float* sensitivity = sensitivity_.empty() ? ones.data() : sensitivity_[v];
+    const float* offset_e = dsnu_e_.empty() ? zeros.data() : dsnu_e_[v];
+    CollectRow(electrons_per_s[v], sensitivity, constants, electrons.data(), size_.width);
+    if (!z.empty()) AddNoiseRow(z[v], constants.read_variance_e2, electrons.data(), size_.width);
+    DigitiseRow(electrons.data(), offset_e, row_offsets_e[static_cast<size_t>(v)], constants, shift,
+                dn[v], size_.width);
   }
-  std::vector<double> weights;
-  double sum = 0.0;
-  for (int i = -reach; i <= reach; ++i) {
-    weights.push_back(std::exp(-0.5 * i * i / (high * high)));
-    sum += weights.back();
-  }
-  std::vector<float> taps;
-  for (const double weight : weights) taps.push_back(static_cast<float>(weight / sum));
-  return taps;
-}
-
-cv::Mat BlurByLens(const cv::Mat& radiance, const LensOptions& lens) {
-  const std::vector<float> taps = GaussianTaps(lens.blur_sigma_px);
-  cv::Mat blurred;
-  cv::sepFilter2D(radiance, blurred, radiance.depth(), taps, taps, cv::Point(-1, -1), 0.0,
-                  cv::BORDER_REPLICATE);
-  return blurred;
-}
-
-cv::Mat1f Expose(const cv::Mat1f& luminance, const ImageSensorOptions& sensor,
-                 const LensOptions& lens, double exposure_s, const RandomStream& noise) {
-  const float electrons_per_luminance =
-      static_cast<float>(sensor.electrons_per_lux_s * IlluminancePerLuminance(lens) * exposure_s);
-  const float inverse_saturation = static_cast<float>(1.0 / sensor.saturation_e);
-  const float read_variance = static_cast<float>(sensor.read_noise_e * sensor.read_noise_e);
-
-  cv::Mat1f signal = cv::Mat1f::zeros(luminance.size());
-  if (sensor.noise) noise.FillNormals({signal.ptr<float>(), signal.total()});
-  for (int v = 0; v < signal.rows; ++v) {
-    const float* in = luminance[v];
-    float* out = signal[v];
-    for (int u = 0; u < signal.cols; ++u) {
-      const float mean_e = electrons_per_luminance * in[u];
-      const float electrons = mean_e + std::sqrt(mean_e + read_variance) * out[u];
-      out[u] = std::clamp(electrons * inverse_saturation, 0.0f, 1.0f);
-    }
-  }
-  return signal;
+  return dn;
 }
 
 }  // namespace fenestra

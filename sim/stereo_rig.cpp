@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,7 +13,7 @@ namespace fenestra {
 namespace {
 
 // Presumes positive lengths.
-CameraModel NominalCamera(const StereoRigOptions& options) {
+CameraModel DesignedCamera(const StereoRigOptions& options) {
   const double f_px = options.focal_length_m / options.pixel_pitch_m;
   return CameraModel({.width_px = options.width_px,
                       .height_px = options.height_px,
@@ -31,15 +33,42 @@ bool DistortionIsInvertible(const CameraModel& camera) {
   return true;
 }
 
-Pose NominalLeft(double baseline_m) {
+Pose DesignedLeft(double baseline_m) {
   return Pose::Translation({-0.5 * baseline_m, 0.0, 0.0});
 }
-Pose NominalRight(double baseline_m) {
+Pose DesignedRight(double baseline_m) {
   return Pose::Translation({0.5 * baseline_m, 0.0, 0.0});
 }
 
 Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
   return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
+}
+
+CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& camera) {
+  if (options.as_designed) return DesignedCamera(options);
+  const RigTolerances& tolerances = options.tolerances;
+  CameraParameters built = DesignedCamera(options).parameters();
+  const double focal = 1.0 + tolerances.focal_length * camera.Child("focal_length").Normal(0);
+  built.fx_px *= focal;
+  built.fy_px *= focal;
+  const RandomStream principal_point = camera.Child("principal_point");
+  built.cx_px += tolerances.principal_point_px * principal_point.Normal(0);
+  built.cy_px += tolerances.principal_point_px * principal_point.Normal(1);
+  const RandomStream distortion = camera.Child("distortion");
+  BrownConrady& d = built.distortion;
+  uint64_t index = 0;
+  for (double* coefficient : {&d.k1, &d.k2, &d.p1, &d.p2, &d.k3}) {
+    *coefficient *= 1.0 + tolerances.distortion * distortion.Normal(index++);
+  }
+  return CameraModel(built);
+}
+
+// The displacement of a camera from where it should be.
+Pose Mounting(const StereoRigOptions& options, const RandomStream& camera) {
+  if (options.as_designed) return Pose();
+  const RigTolerances& tolerances = options.tolerances;
+  return Pose(RotationFromVector(NormalVector(camera.Child("rotation"), tolerances.rotation_rad)),
+              NormalVector(camera.Child("translation"), tolerances.translation_m));
 }
 
 // Where the left image's surface points are in the right one, as differences of their pixels.
@@ -62,10 +91,15 @@ cv::Mat2f MatchesOf(const cv::Mat1f& depth_m, const StereoCalibration& cameras, 
   return matches;
 }
 
-cv::Mat1b Quantise(const cv::Mat1f& signal) {
-  cv::Mat1b dn;
-  signal.convertTo(dn, CV_8U, 255.0);  // Rounds to nearest.
-  return dn;
+// The largest radius of the image in normalised coordinates.
+double LargestRadius(const RayGrid& rays) {
+  double largest2 = 0.0;
+  for (const int u : {0, rays.width_px()}) {
+    for (const int v : {0, rays.height_px()}) {
+      largest2 = std::max<double>(largest2, rays.Corner(u, v).squaredNorm());
+    }
+  }
+  return std::sqrt(largest2);
 }
 
 }  // namespace
@@ -83,78 +117,129 @@ void Validate(const StereoRigOptions& o) {
   demand(o.exposure.shortest_s <= o.exposure.longest_s,
          fmt::format("shortest exposure {} s is longer than the longest, {} s",
                      o.exposure.shortest_s, o.exposure.longest_s));
-  demand(o.rotation_tolerance_rad >= 0.0 && o.translation_tolerance_m >= 0.0,
+  demand(o.lens.blur_sigma_px >= 0.0 && o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
+         fmt::format("blur {} px in the corners is less than {} px in the centre",
+                     o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
+  const RigTolerances& t = o.tolerances;
+  demand(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
+             t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
          "tolerances must not be negative");
-  if (faults.empty() && !DistortionIsInvertible(NominalCamera(o))) {
+  if (faults.empty() && !DistortionIsInvertible(DesignedCamera(o))) {
     demand(false, "the distortion folds the image over before its corners");
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-StereoRig::StereoRig(const StereoRigOptions& options)
+StereoCalibration DesignOf(const StereoRigOptions& options) {
+  Validate(options);
+  return {.left = DesignedCamera(options),
+          .right = DesignedCamera(options),
+          .X_RL = DesignedRight(options.baseline_m).inverse() * DesignedLeft(options.baseline_m)};
+}
+
+StereoRig::Camera::Camera(const CameraModel& model, const StereoRigOptions& options,
+                          const RandomStream& stream)
+    : rays(model),
+      illumination(RelativeIllumination(rays, options.lens)),
+      sensor(options.sensor, {model.width_px(), model.height_px()}, stream) {}
+
+StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
     : options_((Validate(options), options)),
-      nominal_{
-          .left = NominalCamera(options),
-          .right = NominalCamera(options),
-          .X_RL = NominalRight(options.baseline_m).inverse() * NominalLeft(options.baseline_m)},
-      rays_(nominal_.left),
-      vignetting_(NaturalVignetting(rays_)) {}
-
-StereoRig::TrueState StereoRig::Nominal() const {
-  return {.X_BL = NominalLeft(options_.baseline_m), .X_BR = NominalRight(options_.baseline_m)};
+      cameras_{.left = BuiltCamera(options, rig.Child("left")),
+               .right = BuiltCamera(options, rig.Child("right")),
+               .X_RL = {}},
+      X_BL_(DesignedLeft(options.baseline_m) * Mounting(options, rig.Child("left"))),
+      left_(std::make_shared<const Camera>(cameras_.left, options, rig.Child("left"))),
+      right_(std::make_shared<const Camera>(cameras_.right, options, rig.Child("right"))) {
+  const Pose X_BR = DesignedRight(options.baseline_m) * Mounting(options, rig.Child("right"));
+  cameras_.X_RL = X_BR.inverse() * X_BL_;
 }
 
-StereoRig::TrueState StereoRig::Draw(const RandomStream& rig) const {
-  const Eigen::Vector3d rotation =
-      NormalVector(rig.Child("right_rotation"), options_.rotation_tolerance_rad);
-  const Eigen::Vector3d translation =
-      NormalVector(rig.Child("right_translation"), options_.translation_tolerance_m);
-  const Pose displacement(RotationFromVector(rotation), translation);
-  return {.X_BL = NominalLeft(options_.baseline_m),
-          .X_BR = NominalRight(options_.baseline_m) * displacement};
+StereoRig StereoRig::Displaced(const Pose& X_RRnew) const {
+  StereoRig displaced = *this;
+  displaced.cameras_.X_RL = X_RRnew.inverse() * cameras_.X_RL;
+  return displaced;
 }
 
-StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& lighting,
-                                     const Pose& X_WB, const TrueState& state,
-                                     const RandomStream& shot) const {
+double StereoRig::ElectronsPerSecondPerLuminance() const {
+  return ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
+         IlluminancePerLuminance(options_.lens);
+}
+
+cv::Mat1f StereoRig::Luminance(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
+                               const Lighting& lighting, const Pose& X_WB, double t_s,
+                               double exposure_s, const RandomStream& sampling) const {
   const RenderOptions render{.band = Band::kLuminance,
                              .samples_per_pixel = 4,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
-  const auto luminance = [&](const Pose& X_BC, const RandomStream& sampling) {
-    const cv::Mat1f image = caster.Render(rays_, X_WB * X_BC, lighting, render, sampling);
-    return cv::Mat1f(image.mul(vignetting_));
-  };
-  const cv::Mat1f left = luminance(state.X_BL, shot.Child("left_sampling"));
-  const cv::Mat1f right = luminance(state.X_BR, shot.Child("right_sampling"));
-
-  // One exposure for both cameras, from the left one, as a hardware-synchronised pair has it.
-  const double exposure_s =
-      ChooseExposure(options_.exposure, options_.sensor, options_.lens, cv::mean(left)[0]);
-  const auto expose = [&](const cv::Mat1f& image, const RandomStream& noise) {
-    const cv::Mat1f blurred = BlurByLens(image, options_.lens);
-    return Quantise(Expose(blurred, options_.sensor, options_.lens, exposure_s, noise));
-  };
-  return {.left = expose(left, shot.Child("left_noise")),
-          .right = expose(right, shot.Child("right_noise"))};
+  // Pictures in between, half a pixel apart at the fastest: the pixel's own area joins them up.
+  constexpr double kStep_px = 0.5;
+  constexpr double kMostPictures = 64.0;
+  // Presumed: nothing passes the camera closer by.
+  constexpr double kNearest_m = 0.5;
+  const double motion_px =
+      ImageMotion(options_.motion, exposure_s, camera.rays.camera().parameters().fx_px,
+                  LargestRadius(camera.rays), kNearest_m);
+  const int pictures =
+      std::max(1, static_cast<int>(std::ceil(std::min(motion_px / kStep_px, kMostPictures))));
+  cv::Mat1f sum;
+  for (int i = 0; i < pictures; ++i) {
+    const double middle_s = t_s + ((i + 0.5) / pictures - 0.5) * exposure_s;
+    const Pose X_WC = PoseAt(X_WB, options_.motion, middle_s) * X_BC;
+    const cv::Mat1f picture = caster.Render(camera.rays, X_WC, lighting, render,
+                                            sampling.Child("picture", static_cast<uint64_t>(i)));
+    sum = sum.empty() ? picture : cv::Mat1f(sum + picture);
+  }
+  return sum.mul(camera.illumination, 1.0 / pictures);
 }
 
-GroundTruth StereoRig::Truth(const Scene& scene, const Pose& X_WB, const TrueState& state) const {
-  const Pose X_WL = X_WB * state.X_BL;
-  const std::array<PlacedCamera, 2> cameras = {PlacedCamera{nominal_.left, X_WL},
-                                               PlacedCamera{nominal_.right, X_WB * state.X_BR}};
-  return MakeGroundTruth(scene, X_WL, cameras);
+cv::Mat1b StereoRig::Develop(const Camera& camera, const cv::Mat1f& luminance,
+                             const ExposureSetting& exposure, const RandomStream& frame) const {
+  const cv::Mat1f blurred =
+      Blur(luminance, {.centre_sigma_px = options_.lens.blur_sigma_px,
+                       .corner_sigma_px = options_.lens.corner_blur_sigma_px});
+  const cv::Mat1w dn =
+      camera.sensor.Expose(blurred * ElectronsPerSecondPerLuminance(), exposure, frame);
+  // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
+  cv::Mat1b image;
+  dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));
+  return image;
 }
 
-TruthImages StereoRig::LeftTruth(const RayCaster& caster, const Lighting& lighting,
-                                 const Pose& X_WB, const TrueState& state) const {
-  const Pose X_WL = X_WB * state.X_BL;
-  const Pose X_WR = X_WB * state.X_BR;
+StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& lighting,
+                                     const Pose& X_WB, const RandomStream& shot) const {
+  const RandomStream left_sampling = shot.Child("left_sampling");
+  // The exposure is chosen by a picture without motion blur, which has the same mean.
+  cv::Mat1f left = Luminance(*left_, X_BL_, caster, lighting, X_WB, 0.0, 0.0, left_sampling);
+  const ExposureSetting exposure = ChooseExposure(
+      options_.exposure, options_.sensor, cv::mean(left)[0] * ElectronsPerSecondPerLuminance());
+  const double time_s = exposure.exposure_s;
+  if (!options_.motion.still()) {
+    left = Luminance(*left_, X_BL_, caster, lighting, X_WB, 0.0, time_s, left_sampling);
+  }
+  const cv::Mat1f right = Luminance(*right_, X_BR(), caster, lighting, X_WB,
+                                    options_.trigger_skew_s, time_s, shot.Child("right_sampling"));
+  return {.left = Develop(*left_, left, exposure, shot.Child("left_noise")),
+          .right = Develop(*right_, right, exposure, shot.Child("right_noise"))};
+}
+
+GroundTruth StereoRig::Truth(const Scene& scene, const Pose& X_WB) const {
+  const Pose X_WL = X_WB * X_BL_;
+  const std::array<PlacedCamera, 2> placed = {PlacedCamera{cameras_.left, X_WL},
+                                              PlacedCamera{cameras_.right, X_WB * X_BR()}};
+  return MakeGroundTruth(scene, X_WL, placed);
+}
+
+TruthImages StereoRig::PixelTruth(const RayCaster& caster, const Lighting& lighting,
+                                  const Pose& X_WB) const {
+  const Pose X_WL = X_WB * X_BL_;
+  const Pose X_WR = X_WB * X_BR();
   const RenderOptions render{.edge_samples_per_pixel = options_.edge_samples_per_pixel};
   AovImages aovs =
-      caster.CastAovs(rays_, X_WL, lighting, {.offsets_px = {}, .p_WP = X_WR.translation()});
-  const cv::Mat1f radiance = caster.Render(rays_, X_WL, lighting, render, RandomStream(0));
-  cv::Mat2f disparity_px = MatchesOf(aovs.depth_m, nominal_, X_WR.inverse() * X_WL);
-  return {.camera = nominal_.left,
+      caster.CastAovs(left_->rays, X_WL, lighting, {.offsets_px = {}, .p_WP = X_WR.translation()});
+  const cv::Mat1f radiance = caster.Render(left_->rays, X_WL, lighting, render, RandomStream(0));
+  cv::Mat2f disparity_px = MatchesOf(aovs.depth_m, cameras_, X_WR.inverse() * X_WL);
+  return {.camera = cameras_.left,
           .X_WC = X_WL,
           .aovs = std::move(aovs),
           .band = render.band,

@@ -1,16 +1,31 @@
 #pragma once
 
+#include <memory>
+
 #include "core/calibration.h"
 #include "core/observation.h"
 #include "core/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"
+#include "sim/lens.h"
+#include "sim/rig_motion.h"
+#include "sim/spectral_response.h"
 #include "sim/truth_images.h"
 
 namespace fenestra {
 
-/// A pair of IDS uEye UI-1226LE-M-G (MT9V032, 752 x 480, 6 µm) on a 35 cm bar.
+/// How far a rig as built departs from its design: standard deviations of independent normal laws,
+/// for each camera. Assumed: what a workshop and a lens maker's catalogue promise.
+struct RigTolerances {
+  double focal_length = 0.01;       ///< Relative; both axes together.
+  double principal_point_px = 5.0;  ///< Each axis.
+  double distortion = 0.05;         ///< Of each coefficient, relative.
+  double rotation_rad = 3e-3;       ///< About each axis.
+  double translation_m = 5e-4;      ///< Along each axis.
+};
+
+/// A pair of IDS uEye UI-1226LE-M-G (MT9V032, 752 x 480, 6 µm) on a 35 cm bar, as designed.
 struct StereoRigOptions {
   int width_px = 752;
   int height_px = 480;
@@ -21,12 +36,14 @@ struct StereoRigOptions {
   /// this sensor family reach from -0.1 to -0.35.
   BrownConrady distortion{.k1 = -0.10, .k2 = 0.01, .p1 = 1e-4, .p2 = -1e-4, .k3 = 0.0};
   LensOptions lens;
+  SpectralOptions spectrum;
   ImageSensorOptions sensor;
   ExposureOptions exposure;
-  /// How far a rig as built departs from what detectors are told: standard deviations of the right
-  /// camera's rotation about and translation along each axis. The size of a good calibration.
-  double rotation_tolerance_rad = 1e-4;
-  double translation_tolerance_m = 1e-4;
+  bool as_designed = false;  ///< Without any departure; tolerances do not count then.
+  RigTolerances tolerances;
+  RigMotion motion;
+  /// By how much the right camera's exposure is later than the left one's [s].
+  double trigger_skew_s = 0.0;
   /// Where more than one edge crosses a pixel; see RenderOptions.
   int edge_samples_per_pixel = 256;
 };
@@ -34,36 +51,56 @@ struct StereoRigOptions {
 /// Throws InputError with all faults.
 void Validate(const StereoRigOptions& options);
 
-/// The stereo rig. Frame B: origin midway between the nominal cameras, axes of the nominal left
-/// camera.
+/// The rig as designed, before any tolerance.
+StereoCalibration DesignOf(const StereoRigOptions& options);
+
+/// A rig as it stands after it was built: true cameras and poses, and each camera's fixed pattern.
+/// Frame B: origin midway between the cameras as designed, axes of the left camera as designed.
+///
+/// Both shutters are global. Poses, and with them the ground truth, are those at the middle of the
+/// left camera's exposure. Both cameras have one exposure time and gain, chosen by the left image.
 class StereoRig {
  public:
-  explicit StereoRig(const StereoRigOptions& options);
+  /// Draws the rig that belongs to the stream, within its tolerances. Throws InputError.
+  StereoRig(const StereoRigOptions& options, const RandomStream& rig);
+
+  /// This rig after the right camera has been displaced.
+  StereoRig Displaced(const Pose& X_RRnew) const;
 
   const StereoRigOptions& options() const { return options_; }
-  /// What detectors are told.
-  const StereoCalibration& nominal() const { return nominal_; }
-
-  /// One rig as it was built.
-  struct TrueState {
-    Pose X_BL;
-    Pose X_BR;
-  };
-  TrueState Draw(const RandomStream& rig) const;
-  /// A rig that is as detectors are told.
-  TrueState Nominal() const;
+  /// The truth; what detectors are told is another matter.
+  const StereoCalibration& cameras() const { return cameras_; }
+  const Pose& X_BL() const { return X_BL_; }
+  Pose X_BR() const { return X_BL_ * cameras_.X_RL.inverse(); }
 
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                            const TrueState& state, const RandomStream& shot) const;
-  GroundTruth Truth(const Scene& scene, const Pose& X_WB, const TrueState& state) const;
-  TruthImages LeftTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                        const TrueState& state) const;
+                            const RandomStream& shot) const;
+  GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
+  /// Of the left camera.
+  TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
  private:
+  // What does not change when a rig is displaced.
+  struct Camera {
+    Camera(const CameraModel& model, const StereoRigOptions& options, const RandomStream& stream);
+    RayGrid rays;
+    cv::Mat1f illumination;
+    ImageSensor sensor;
+  };
+
+  /// Luminance on the sensor, relative to the lens' axis, averaged over an exposure around t.
+  cv::Mat1f Luminance(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
+                      const Lighting& lighting, const Pose& X_WB, double t_s, double exposure_s,
+                      const RandomStream& sampling) const;
+  cv::Mat1b Develop(const Camera& camera, const cv::Mat1f& luminance,
+                    const ExposureSetting& exposure, const RandomStream& frame) const;
+  double ElectronsPerSecondPerLuminance() const;
+
   StereoRigOptions options_;
-  StereoCalibration nominal_;
-  RayGrid rays_;  ///< Both cameras have the same nominal intrinsics.
-  cv::Mat1f vignetting_;
+  StereoCalibration cameras_;
+  Pose X_BL_;
+  std::shared_ptr<const Camera> left_;
+  std::shared_ptr<const Camera> right_;
 };
 
 }  // namespace fenestra

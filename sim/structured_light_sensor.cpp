@@ -62,6 +62,9 @@ void Validate(const StructuredLightOptions& o) {
   demand(o.grazing_limit_rad > 0.0 && o.grazing_limit_rad <= 1.5707,
          "the grazing limit must lie between 0 and 90 degrees");
   demand(o.dot_irradiance > 0.0, "the dots' irradiance must be positive");
+  demand(o.color_lens.corner_blur_sigma_px >= o.color_lens.blur_sigma_px,
+         fmt::format("colour blur {} px in the corners is less than {} px in the centre",
+                     o.color_lens.corner_blur_sigma_px, o.color_lens.blur_sigma_px));
   demand(o.color_mean_dn > 0.0 && o.color_mean_dn < 255.0,
          "the colour image's mean must lie between 0 and 255");
   if (!faults.empty()) throw InputError(std::move(faults));
@@ -74,7 +77,10 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
                .X_KD = DepthToColor(options)},
       depth_rays_(nominal_.depth),
       color_rays_(nominal_.color),
-      color_vignetting_(NaturalVignetting(color_rays_)) {}
+      color_illumination_(RelativeIllumination(color_rays_, options.color_lens)),
+      // One fixed pattern: all sensors of a study are the same unit.
+      color_sensor_(options.color_sensor, {options.color_width_px, options.color_height_px},
+                    RandomStream(0).Child("color_camera")) {}
 
 RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Lighting& lighting,
                                                const Pose& X_WB, const RandomStream& shot) const {
@@ -133,35 +139,49 @@ cv::Mat3b StructuredLightSensor::ObserveColor(const RayCaster& caster, const Lig
   cv::Mat3f luminance = caster.Render(color_rays_, X_WB * nominal_.X_KD.inverse(), lighting, render,
                                       shot.Child("color_sampling"));
   std::array<cv::Mat1f, 3> channels;
-  cv::split(BlurByLens(luminance, options_.color_lens), channels.data());
-  for (cv::Mat1f& channel : channels) channel = channel.mul(color_vignetting_);
-
+  cv::split(luminance, channels.data());
+  const std::array<double, 3> blur = {options_.color_blue_blur, 1.0, options_.color_red_blur};
+  const double electrons_per_s =
+      options_.color_electrons_per_lux_s * IlluminancePerLuminance(options_.color_lens);
+  for (size_t i = 0; i < channels.size(); ++i) {
+    channels[i] = Blur(channels[i].mul(color_illumination_, electrons_per_s),
+                       {.centre_sigma_px = blur[i] * options_.color_lens.blur_sigma_px,
+                        .corner_sigma_px = blur[i] * options_.color_lens.corner_blur_sigma_px});
+  }
   const double exposure_s = ColorExposure(channels);
   std::array<cv::Mat1b, 3> encoded;
   for (size_t i = 0; i < channels.size(); ++i) {
-    encoded[i] = EncodeSrgb(Expose(channels[i], options_.color_sensor, options_.color_lens,
-                                   exposure_s, shot.Child("color_noise", i)));
+    encoded[i] = DevelopColor(channels[i], exposure_s, shot.Child("color_noise", i));
   }
   cv::Mat3b color;
   cv::merge(encoded.data(), encoded.size(), color);
   return color;
 }
 
-double StructuredLightSensor::ColorExposure(const std::array<cv::Mat1f, 3>& luminance) const {
+cv::Mat1b StructuredLightSensor::DevelopColor(const cv::Mat1f& electrons_per_s, double exposure_s,
+                                              const RandomStream& frame) const {
+  const cv::Mat1w dn =
+      color_sensor_.Expose(electrons_per_s, {.exposure_s = exposure_s, .gain = 1.0}, frame);
+  // Black is taken away before the encoding.
+  const double black_dn = color_sensor_.BlackLevelDn();
+  const double per_dn = 1.0 / (color_sensor_.FullScaleDn() - black_dn);
+  cv::Mat1f linear;
+  dn.convertTo(linear, CV_32F, per_dn, -black_dn * per_dn);
+  return EncodeSrgb(linear);
+}
+
+double StructuredLightSensor::ColorExposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const {
   if (!options_.color_auto_exposure) return options_.color_exposure_s;
   // The encoded mean grows with exposure, but not linearly: bisect. Without noise, on every fourth
   // pixel of every fourth row.
-  ImageSensorOptions noiseless = options_.color_sensor;
-  noiseless.noise = false;
   std::array<cv::Mat1f, 3> sparse;
   for (size_t i = 0; i < sparse.size(); ++i) {
-    cv::resize(luminance[i], sparse[i], {}, 0.25, 0.25, cv::INTER_NEAREST);
+    cv::resize(electrons_per_s[i], sparse[i], {}, 0.25, 0.25, cv::INTER_NEAREST);
   }
   const auto mean_dn = [&](double exposure_s) {
     double sum = 0.0;
     for (const cv::Mat1f& channel : sparse) {
-      sum += cv::mean(EncodeSrgb(
-          Expose(channel, noiseless, options_.color_lens, exposure_s, RandomStream(0))))[0];
+      sum += cv::mean(EncodeSrgb(channel * (exposure_s / options_.color_sensor.saturation_e)))[0];
     }
     return sum / 3.0;
   };
@@ -181,7 +201,7 @@ GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) c
   return MakeGroundTruth(scene, X_WB, cameras);
 }
 
-TruthImages StructuredLightSensor::DepthTruth(const RayCaster& caster, const Lighting& lighting,
+TruthImages StructuredLightSensor::PixelTruth(const RayCaster& caster, const Lighting& lighting,
                                               const Pose& X_WB) const {
   const Eigen::Vector3d p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0);
   AovImages aovs = caster.CastAovs(depth_rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = p_WP});

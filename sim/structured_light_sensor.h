@@ -9,6 +9,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"
+#include "sim/lens.h"
 #include "sim/truth_images.h"
 
 namespace fenestra {
@@ -53,10 +54,24 @@ struct StructuredLightOptions {
   /// Full width of the infra-red filter [nm]: how much ambient light competes with the dots.
   double filter_width_nm = 10.0;
 
-  LensOptions color_lens{.f_number = 2.0, .transmission = 0.9, .blur_sigma_px = 0.5};
+  LensOptions color_lens{.f_number = 2.0,
+                         .transmission = 0.9,
+                         .blur_sigma_px = 0.5,
+                         .corner_blur_sigma_px = 0.7,
+                         .corner_illumination = 0.9};
+  /// Blur in red and blue as multiples of that in green; 1: a lens without colour errors.
+  double color_red_blur = 1.0;
+  double color_blue_blur = 1.0;
+  double color_electrons_per_lux_s = 2.0e4;  ///< In one channel; assumed.
   /// Small pixels: 2.8 µm against the 6 µm of the machine-vision camera.
-  ImageSensorOptions color_sensor{
-      .electrons_per_lux_s = 2.0e4, .saturation_e = 6000.0, .read_noise_e = 6.0, .noise = true};
+  ImageSensorOptions color_sensor{.saturation_e = 6000.0,
+                                  .read_noise_e = 6.0,
+                                  .dark_current_e_s = 50.0,
+                                  .dsnu_e = 3.0,
+                                  .prnu = 0.01,
+                                  .row_noise_e = 0.0,
+                                  .adc_bits = 10,
+                                  .output_bits = 10};
   /// Mean of the sRGB-encoded image that automatic exposure aims for, of 255.
   double color_mean_dn = 118.0;
   bool color_auto_exposure = true;
@@ -89,7 +104,8 @@ class StructuredLightSensor {
   RgbdObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                           const RandomStream& shot) const;
   GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
-  TruthImages DepthTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
+  /// Of the depth camera.
+  TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
   /// The depth image with its reasons; Observe's depth is the same.
   struct DepthFrame {
@@ -102,14 +118,18 @@ class StructuredLightSensor {
  private:
   cv::Mat3b ObserveColor(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                          const RandomStream& shot) const;
-  /// Fixed, or such that the encoded image's mean is color_mean_dn; B, G, R in [cd/m²].
-  double ColorExposure(const std::array<cv::Mat1f, 3>& luminance) const;
+  /// Fixed, or such that the encoded image's mean is color_mean_dn; B, G, R in electrons per
+  /// second.
+  double ColorExposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const;
+  cv::Mat1b DevelopColor(const cv::Mat1f& electrons_per_s, double exposure_s,
+                         const RandomStream& frame) const;
 
   StructuredLightOptions options_;
   RgbdCalibration nominal_;
   RayGrid depth_rays_;
   RayGrid color_rays_;
-  cv::Mat1f color_vignetting_;
+  cv::Mat1f color_illumination_;
+  ImageSensor color_sensor_;
 };
 
 }  // namespace fenestra

@@ -84,7 +84,7 @@ TEST(Factors, UnitsOfNamesBecomeSi) {
   // One product each: half a unit in the last place.
   EXPECT_DOUBLE_EQ(settings.viewpoint.azimuth_rad, std::numbers::pi / 4.0);
   EXPECT_DOUBLE_EQ(settings.stereo.exposure.exposure_s, 2e-3);
-  EXPECT_DOUBLE_EQ(settings.stereo.rotation_tolerance_rad, 3e-3);
+  EXPECT_DOUBLE_EQ(settings.stereo.tolerances.rotation_rad, 3e-3);
   EXPECT_DOUBLE_EQ(settings.stereo.pixel_pitch_m, 6e-6);
   EXPECT_EQ(settings.lighting.irradiance_830_per_lux, kDaylightIrradiance830PerLux);
 }

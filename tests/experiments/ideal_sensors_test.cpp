@@ -34,11 +34,13 @@ std::vector<Error> ErrorsOf(const std::string& sensor) {
                             "  stereo_k2: 0\n"
                             "  stereo_p1: 0\n"
                             "  stereo_p2: 0\n"
-                            "  stereo_rotation_tolerance_mrad: 0\n"
-                            "  stereo_translation_tolerance_mm: 0\n"
+                            "  stereo_fixed_pattern: false\n"
+                            "  stereo_as_designed: true\n"
+                            "  stereo_calibration: exact\n"
                           : "  rgbd_disparity_noise_px: 0\n"
                             "  rgbd_lateral_noise_px: 0\n"
                             "  rgbd_color_noise: false\n"
+                            "  rgbd_color_fixed_pattern: false\n"
                             "  frame_reflectance_830nm: 0.8\n");
   const Study study = ReadStudy(YamlReader::FromText(text, "ideal.yaml"), Detectors());
   std::vector<Error> errors;

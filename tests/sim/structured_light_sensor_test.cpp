@@ -195,7 +195,7 @@ TEST(StructuredLightSensorTest, OddPosesNeitherCrashNorInventDepth) {
                                3 * stream.Normal(6 * i + 5));
     const Pose X_WB(RotationFromVector(2.0 * axis), p_WB);
     const DepthFrame frame = sensor.ObserveDepth(caster, {}, X_WB, stream.Child("pose", i));
-    const AovImages truth = sensor.DepthTruth(caster, {}, X_WB).aovs;
+    const AovImages truth = sensor.PixelTruth(caster, {}, X_WB).aovs;
     for (int v = 0; v < 48; ++v) {
       for (int u = 0; u < 64; ++u) {
         const int raw = frame.depth.raw(v, u);
