@@ -161,6 +161,13 @@ StereoRig StereoRig::Displaced(const Pose& X_RRnew) const {
   return displaced;
 }
 
+StereoRig StereoRig::Still() const {
+  StereoRig still = *this;
+  still.options_.motion = {};
+  still.options_.trigger_skew_s = 0.0;
+  return still;
+}
+
 double StereoRig::ElectronsPerSecondPerLuminance() const {
   return ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
          IlluminancePerLuminance(options_.lens);

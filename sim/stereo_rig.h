@@ -66,6 +66,8 @@ class StereoRig {
 
   /// This rig after the right camera has been displaced.
   StereoRig Displaced(const Pose& X_RRnew) const;
+  /// This rig standing still, with both cameras triggered at once.
+  StereoRig Still() const;
 
   const StereoRigOptions& options() const { return options_; }
   /// The truth; what detectors are told is another matter.
