@@ -107,6 +107,46 @@ std::optional<Vector2d> CameraModel::Project(const Vector3d& p_CQ) const {
                   parameters_.fy_px * d.y() + parameters_.cy_px);
 }
 
+std::optional<CameraModel::Linearisation> CameraModel::Linearise(const Vector3d& p_CQ) const {
+  const auto pixel = Project(p_CQ);
+  if (!pixel) return std::nullopt;
+  const double inverse_z = 1.0 / p_CQ.z();
+  const double x = p_CQ.x() * inverse_z;
+  const double y = p_CQ.y() * inverse_z;
+  const double r2 = x * x + y * y;
+  const double fx = parameters_.fx_px;
+  const double fy = parameters_.fy_px;
+  Eigen::Matrix<double, 2, 3> normalised_by_point;
+  normalised_by_point << inverse_z, 0.0, -x * inverse_z, 0.0, inverse_z, -y * inverse_z;
+  Linearisation result;
+  result.pixel = *pixel;
+  result.by_point = Vector2d(fx, fy).asDiagonal() *
+                    DistortionJacobian(parameters_.distortion, {x, y}) * normalised_by_point;
+  result.by_parameters << (pixel->x() - parameters_.cx_px) / fx, 0.0, 1.0, 0.0, fx * x * r2,
+      fx * x * r2 * r2, fx * 2.0 * x * y, fx * (r2 + 2.0 * x * x), fx * x * r2 * r2 * r2, 0.0,
+      (pixel->y() - parameters_.cy_px) / fy, 0.0, 1.0, fy * y * r2, fy * y * r2 * r2,
+      fy * (r2 + 2.0 * y * y), fy * 2.0 * x * y, fy * y * r2 * r2 * r2;
+  return result;
+}
+
+Eigen::Matrix<double, 9, 1> CameraModel::ParameterVector() const {
+  const CameraParameters& p = parameters_;
+  const BrownConrady& d = p.distortion;
+  Eigen::Matrix<double, 9, 1> vector;
+  vector << p.fx_px, p.fy_px, p.cx_px, p.cy_px, d.k1, d.k2, d.p1, d.p2, d.k3;
+  return vector;
+}
+
+CameraModel CameraModel::WithParameters(const Eigen::Matrix<double, 9, 1>& p) const {
+  return CameraModel({.width_px = width_px(),
+                      .height_px = height_px(),
+                      .fx_px = p[0],
+                      .fy_px = p[1],
+                      .cx_px = p[2],
+                      .cy_px = p[3],
+                      .distortion = {.k1 = p[4], .k2 = p[5], .p1 = p[6], .p2 = p[7], .k3 = p[8]}});
+}
+
 std::optional<Vector3d> CameraModel::UnprojectRay(const Vector2d& pixel) const {
   const Vector2d target((pixel.x() - parameters_.cx_px) / parameters_.fx_px,
                         (pixel.y() - parameters_.cy_px) / parameters_.fy_px);

@@ -55,6 +55,21 @@ class CameraModel {
   /// outside the image; see Contains.
   std::optional<Eigen::Vector2d> Project(const Eigen::Vector3d& p_CQ) const;
 
+  /// Pixel and its first derivatives.
+  struct Linearisation {
+    Eigen::Vector2d pixel;
+    Eigen::Matrix<double, 2, 3> by_point;  ///< By X, Y, Z [px/m].
+    /// By fx, fy, cx, cy, k1, k2, p1, p2, k3: the order of ParameterVector.
+    Eigen::Matrix<double, 2, 9> by_parameters;
+  };
+  /// Project with its derivatives; nullopt where Project is.
+  std::optional<Linearisation> Linearise(const Eigen::Vector3d& p_CQ) const;
+
+  /// fx, fy, cx, cy, k1, k2, p1, p2, k3.
+  Eigen::Matrix<double, 9, 1> ParameterVector() const;
+  /// This camera with other parameters, in that order.
+  CameraModel WithParameters(const Eigen::Matrix<double, 9, 1>& parameters) const;
+
   /// Pixel to the direction (x, y, 1) of its ray in C. The inverse of Project to 1e-12 in the
   /// normalised image; nullopt where no ray of the valid domain meets the pixel.
   std::optional<Eigen::Vector3d> UnprojectRay(const Eigen::Vector2d& pixel) const;
