@@ -24,6 +24,8 @@ if(FENESTRA_FUZZ)
     -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
   target_link_options(fenestra_options INTERFACE -fsanitize=address,undefined)
 endif()
+# Tells this build's cached results from those of others.
+target_link_options(fenestra_options INTERFACE -Wl,--build-id)
 find_program(MOLD mold)
 if(MOLD)
   target_link_options(fenestra_options INTERFACE -fuse-ld=mold)

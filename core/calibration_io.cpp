@@ -196,18 +196,27 @@ std::string ToOpenCvYaml(const RgbdCalibration& calibration) {
 }
 
 std::string ToRosCameraInfo(const CameraModel& camera, const std::string& camera_name) {
+  RosRectification alone{.rotation = Matrix3d::Identity(), .projection = {}};
+  alone.projection << camera.Matrix(), Vector3d::Zero();
+  return ToRosCameraInfo(camera, camera_name, alone);
+}
+
+std::string ToRosCameraInfo(const CameraModel& camera, const std::string& camera_name,
+                            const RosRectification& rectification) {
   const CameraParameters& p = camera.parameters();
   const BrownConrady& d = p.distortion;
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = rectification.rotation;
+  const Eigen::Matrix<double, 3, 4, Eigen::RowMajor> P = rectification.projection;
   return fmt::format(
       "image_width: {}\nimage_height: {}\ncamera_name: {}\n"
       "camera_matrix:\n  rows: 3\n  cols: 3\n  data: [{}, 0, {}, 0, {}, {}, 0, 0, 1]\n"
       "distortion_model: plumb_bob\n"
       "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [{}, {}, {}, {}, {}]\n"
-      "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n"
-      "projection_matrix:\n  rows: 3\n  cols: 4\n"
-      "  data: [{}, 0, {}, 0, 0, {}, {}, 0, 0, 0, 1, 0]\n",
+      "rectification_matrix:\n  rows: 3\n  cols: 3\n  data: [{}]\n"
+      "projection_matrix:\n  rows: 3\n  cols: 4\n  data: [{}]\n",
       p.width_px, p.height_px, camera_name, p.fx_px, p.cx_px, p.fy_px, p.cy_px, d.k1, d.k2, d.p1,
-      d.p2, d.k3, p.fx_px, p.cx_px, p.fy_px, p.cy_px);
+      d.p2, d.k3, fmt::join(R.data(), R.data() + R.size(), ", "),
+      fmt::join(P.data(), P.data() + P.size(), ", "));
 }
 
 CameraModel ReadCameraInfo(const std::filesystem::path& file) {

@@ -26,9 +26,18 @@ RgbdCalibration ReadRgbdCalibration(const std::filesystem::path& file);
 std::string ToOpenCvYaml(const StereoCalibration& calibration);
 std::string ToOpenCvYaml(const RgbdCalibration& calibration);
 
-/// ROS `camera_info` (sensor_msgs/CameraInfo as camera_calibration_parsers writes it), with
-/// rectification R = 1 and projection P = [K | 0]. Readable again with ReadCameraInfo.
+/// How a camera's image is rectified: R turns its rays, P projects them afterwards. The right
+/// camera of a pair has P(0, 3) = -fx B.
+struct RosRectification {
+  Eigen::Matrix3d rotation;
+  Eigen::Matrix<double, 3, 4> projection;
+};
+
+/// ROS `camera_info` (sensor_msgs/CameraInfo as camera_calibration_parsers writes it). A camera of
+/// its own has R = 1 and P = [K | 0]. Readable again with ReadCameraInfo.
 std::string ToRosCameraInfo(const CameraModel& camera, const std::string& camera_name);
+std::string ToRosCameraInfo(const CameraModel& camera, const std::string& camera_name,
+                            const RosRectification& rectification);
 CameraModel ReadCameraInfo(const std::filesystem::path& file);
 
 }  // namespace fenestra

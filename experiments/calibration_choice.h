@@ -1,7 +1,9 @@
 #pragma once
 
 #include "core/calibration.h"
+#include "core/calibration_board.h"
 #include "core/random_stream.h"
+#include "experiments/calibration_cache.h"
 #include "sim/stereo_rig.h"
 
 namespace fenestra {
@@ -10,19 +12,34 @@ namespace fenestra {
 enum class CalibrationSource {
   kExact,      ///< The true rig.
   kPerturbed,  ///< The true rig with a random error of the right camera's pose.
+  kBoards,     ///< Calibrated with pictures of a board: intrinsics, extrinsics, errors and all.
+  kStale,      ///< The same, but since then the right camera has been displaced.
   kDesign,     ///< The rig as designed: never calibrated.
 };
 
 struct CalibrationChoice {
   CalibrationSource source = CalibrationSource::kPerturbed;
-  /// kPerturbed: standard deviations about and along each axis. The size of a good calibration's
-  /// error.
+  /// kPerturbed: standard deviations about and along each axis. About what 20 boards leave behind.
   double rotation_error_rad = 1e-4;
   double translation_error_m = 1e-4;
+  /// kBoards, kStale.
+  int boards = 20;
+  BoardKind board = BoardKind::kChessboard;
+  /// kStale: displacement of the right camera, standard deviations about and along each axis; what
+  /// a hard landing does to a bar. Assumed.
+  double shake_rotation_rad = 5e-4;
+  double shake_translation_m = 1e-4;
 };
 
-/// What a detector is told of the rig. A pure function of its arguments.
-StereoCalibration CalibrationOf(const StereoRig& rig, const CalibrationChoice& choice,
-                                const RandomStream& calibration);
+/// A rig as it flies, and what detectors are told of it.
+struct CalibratedRig {
+  StereoRig rig;
+  StereoCalibration told;
+};
+
+/// Calibrates a rig that was just built. A pure function of all but the cache, which only saves
+/// time. Throws InputError if a calibration with boards fails.
+CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
+                         const RandomStream& calibration, const CalibrationCache& cache);
 
 }  // namespace fenestra

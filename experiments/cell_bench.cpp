@@ -37,10 +37,10 @@ CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
     const RgbdCalibration calibration = sensor.nominal();
     return {.sensor = std::move(sensor), .calibration = calibration};
   }
-  StereoRig rig(settings.stereo, trial.Child("rig"));
-  const StereoCalibration calibration =
-      CalibrationOf(rig, settings.stereo_calibration, trial.Child("calibration"));
-  return {.sensor = std::move(rig), .calibration = calibration};
+  const StereoRig built(settings.stereo, trial.Child("rig"));
+  CalibratedRig calibrated =
+      Calibrated(built, settings.stereo_calibration, trial.Child("calibration"), cache_);
+  return {.sensor = std::move(calibrated.rig), .calibration = calibrated.told};
 }
 
 std::shared_ptr<const CellBench::World> CellBench::WorldOf(const TrialSettings& settings) const {

@@ -7,6 +7,7 @@
 
 #include "core/calibration.h"
 #include "core/detector.h"
+#include "experiments/calibration_cache.h"
 #include "experiments/sampling.h"
 #include "experiments/study.h"
 #include "experiments/trial_record.h"
@@ -72,6 +73,7 @@ class CellBench {
   Study study_;
   Cell cell_;
   std::vector<DetectorChoice> detector_choices_;
+  CalibrationCache cache_ = CalibrationCache::OfUser();
   std::shared_ptr<const World> shared_world_;            ///< Null if trials draw the scene.
   std::shared_ptr<const Instrument> shared_instrument_;  ///< Null if trials draw the sensor.
   /// Empty if trials draw the sensor.

@@ -117,9 +117,19 @@ void AddStereoRig(Table& t) {
       .Number("stereo_translation_tolerance_mm", FIELD(stereo.tolerances.translation_m),
               {0.0, 50.0, kMilli}, "Of each camera as mounted; standard deviation per axis.")
       .Choice("stereo_calibration", FIELD(stereo_calibration.source),
-              {"exact", "perturbed", "design"},
-              "What detectors are told: the rig as built, the same with a random error, or as "
-              "designed.")
+              {"exact", "perturbed", "boards", "stale", "design"},
+              "What detectors are told: the rig as built, the same with a random error, "
+              "calibrated with boards, the same before the rig was shaken, or as designed.")
+      .Integer("stereo_calibration_boards", FIELD(stereo_calibration.boards), {3, 1000},
+               "Pictures of the board that a rig is calibrated with.")
+      .Choice("stereo_calibration_board", FIELD(stereo_calibration.board),
+              {"chessboard", "charuco"}, "What the rig is calibrated with.")
+      .Number("stereo_shake_rotation_mrad", FIELD(stereo_calibration.shake_rotation_rad),
+              {0.0, 50.0, kMilli},
+              "With a stale calibration: turn of the right camera, standard deviation per axis.")
+      .Number("stereo_shake_translation_mm", FIELD(stereo_calibration.shake_translation_m),
+              {0.0, 50.0, kMilli},
+              "With a stale calibration: shift of the right camera, standard deviation per axis.")
       .Number("stereo_calibration_rotation_error_mrad",
               FIELD(stereo_calibration.rotation_error_rad), {0.0, 50.0, kMilli},
               "With a perturbed calibration: between the cameras, standard deviation per axis.")

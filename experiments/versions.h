@@ -13,4 +13,8 @@ std::string LibraryVersions();
 /// The processor's name and its widest vector instructions.
 std::string Processor();
 
+/// The linker's hash of the running program, in hexadecimal; empty if it has none. Two programs
+/// with the same one compute the same.
+const std::string& BuildId();
+
 }  // namespace fenestra

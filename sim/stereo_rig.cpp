@@ -149,6 +149,7 @@ StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
                .right = BuiltCamera(options, rig.Child("right")),
                .X_RL = {}},
       X_BL_(DesignedLeft(options.baseline_m) * Mounting(options, rig.Child("left"))),
+      pattern_key_(rig.key()),
       left_(std::make_shared<const Camera>(cameras_.left, options, rig.Child("left"))),
       right_(std::make_shared<const Camera>(cameras_.right, options, rig.Child("right"))) {
   const Pose X_BR = DesignedRight(options.baseline_m) * Mounting(options, rig.Child("right"));

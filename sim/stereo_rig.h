@@ -73,6 +73,8 @@ class StereoRig {
   /// The truth; what detectors are told is another matter.
   const StereoCalibration& cameras() const { return cameras_; }
   const Pose& X_BL() const { return X_BL_; }
+  /// Tells the fixed patterns of this rig's cameras from those of others.
+  uint64_t pattern_key() const { return pattern_key_; }
   Pose X_BR() const { return X_BL_ * cameras_.X_RL.inverse(); }
 
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
@@ -101,6 +103,7 @@ class StereoRig {
   StereoRigOptions options_;
   StereoCalibration cameras_;
   Pose X_BL_;
+  uint64_t pattern_key_;
   std::shared_ptr<const Camera> left_;
   std::shared_ptr<const Camera> right_;
 };

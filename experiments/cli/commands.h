@@ -19,6 +19,7 @@ void AddRenderCommand(CLI::App& program, int& exit_code);
 void AddExportCommand(CLI::App& program, int& exit_code);
 void AddReplayCommand(CLI::App& program, int& exit_code);
 void AddDetectCommand(CLI::App& program, int& exit_code);
+void AddCalibrateCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);
 
 }  // namespace fenestra::cli

@@ -88,6 +88,7 @@ int Main(int argc, char** argv) {
   AddExportCommand(program, exit_code);
   AddReplayCommand(program, exit_code);
   AddDetectCommand(program, exit_code);
+  AddCalibrateCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {
     program.parse(argc, argv);

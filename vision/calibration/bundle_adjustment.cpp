@@ -60,9 +60,10 @@ struct NormalEquations {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Adds the corners that one camera saw in one view. False if a corner has no projection.
-bool AddCorners(const PairState& state, size_t view, bool is_right,
-                const std::vector<BoardCorner>& corners, const CalibrationBoard& board,
-                NormalEquations& equations) {
+bool AddCorners(const PairState& state, size_t view, bool is_right, const BoardView& seen_in,
+                const CalibrationBoard& board, NormalEquations& equations) {
+  const std::vector<BoardCorner>& corners = is_right ? seen_in.right : seen_in.left;
+  const double weight = is_right ? seen_in.right_weight : seen_in.left_weight;
   const CameraModel& camera = is_right ? state.cameras.right : state.cameras.left;
   const Pose& X_LG = state.X_LG[view];
   const Pose& X_RL = state.cameras.X_RL;
@@ -82,12 +83,12 @@ bool AddCorners(const PairState& state, size_t view, bool is_right,
       by_pair.leftCols<kCameraParameters>() = seen->by_parameters;
     }
     const Vector2d residual = corner.pixel - seen->pixel;
-    equations.A += by_pair.transpose() * by_pair;
-    equations.vector += by_pair.transpose() * residual;
-    equations.B[view] += by_pair.transpose() * by_view;
-    equations.C[view] += by_view.transpose() * by_view;
-    equations.view_vector[view] += by_view.transpose() * residual;
-    equations.squared_residuals += residual.squaredNorm();
+    equations.A += weight * by_pair.transpose() * by_pair;
+    equations.vector += weight * by_pair.transpose() * residual;
+    equations.B[view] += weight * by_pair.transpose() * by_view;
+    equations.C[view] += weight * by_view.transpose() * by_view;
+    equations.view_vector[view] += weight * by_view.transpose() * residual;
+    equations.squared_residuals += weight * residual.squaredNorm();
     equations.residual_count += 2;
   }
   return true;
@@ -97,8 +98,8 @@ NormalEquations Linearise(const PairState& state, const std::vector<BoardView>& 
                           const CalibrationBoard& board) {
   NormalEquations equations(views.size());
   for (size_t i = 0; i < views.size(); ++i) {
-    if (!AddCorners(state, i, false, views[i].left, board, equations) ||
-        !AddCorners(state, i, true, views[i].right, board, equations)) {
+    if (!AddCorners(state, i, false, views[i], board, equations) ||
+        !AddCorners(state, i, true, views[i], board, equations)) {
       equations.squared_residuals = kInfinity;
       break;
     }

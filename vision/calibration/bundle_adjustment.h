@@ -13,6 +13,9 @@ namespace fenestra {
 struct BoardView {
   std::vector<BoardCorner> left;
   std::vector<BoardCorner> right;
+  /// Weights of their residuals: 1/σ² up to a common factor.
+  double left_weight = 1.0;
+  double right_weight = 1.0;
 };
 
 /// Parameters of a stereo pair, in this order: left fx, fy, cx, cy [px], k1, k2, p1, p2, k3; right
@@ -33,20 +36,20 @@ struct PairState {
 
 /// Least squares over both cameras' parameters, the pose between them and all board poses:
 ///
-///     Σ |pixel - project(X_CG p_GQ)|²
+///     Σ w |pixel - project(X_CG p_GQ)|²
 ///
 /// by Levenberg and Marquardt's method with analytic derivatives; board poses are eliminated by
 /// their Schur complement.
 struct AdjustedPair {
   PairState state;
-  double squared_residuals;  ///< [px²]
+  double squared_residuals;  ///< Weighted; [px²] with unit weights.
   int residual_count;        ///< Two for each corner.
   int unknown_count;         ///< Free parameters and six for each view.
-  /// Inverse information of the free parameters with unit variance of each residual; rows and
+  /// Inverse information of the free parameters with unit variance of unit weight; rows and
   /// columns of fixed parameters are 0. The covariance is σ² times it.
   PairMatrix cofactor;
 
-  /// Variance of one coordinate of a corner, by the residuals [px²].
+  /// Variance of one coordinate of a corner of unit weight, by the residuals [px²].
   double variance() const {
     return squared_residuals / static_cast<double>(residual_count - unknown_count);
   }

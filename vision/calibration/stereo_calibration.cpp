@@ -137,6 +137,49 @@ Pose RelativePose(const std::vector<NamedView>& views, const CalibrationBoard& b
   return PoseOf(rotation_vector, T);
 }
 
+std::vector<CornerResidual> ResidualsOf(const CameraModel& camera, const Pose& X_CG,
+                                        const std::vector<BoardCorner>& corners,
+                                        const CalibrationBoard& board) {
+  std::vector<CornerResidual> residuals;
+  for (const BoardCorner& corner : corners) {
+    const auto projected = camera.Project(X_CG * board.Corner(corner.id));
+    if (projected) residuals.push_back({corner.pixel, corner.pixel - *projected});
+  }
+  return residuals;
+}
+
+double SquaredResiduals(const CameraModel& camera, const Pose& X_CG,
+                        const std::vector<BoardCorner>& corners, const CalibrationBoard& board) {
+  double sum = 0.0;
+  for (const CornerResidual& r : ResidualsOf(camera, X_CG, corners, board)) {
+    sum += r.residual_px.squaredNorm();
+  }
+  return sum;
+}
+
+// Weighs each picture by its own residuals: blur, tilt and light make corners more certain in some
+// than in others by a factor of three, and a covariance that ignores it is not honest. Degrees of
+// freedom are taken from all pictures alike.
+void Weigh(const AdjustedPair& pair, const CalibrationBoard& board, std::vector<BoardView>& views) {
+  const double freedom = 1.0 - static_cast<double>(pair.unknown_count) / pair.residual_count;
+  const double usual = pair.variance();
+  const auto weight = [&](double squared_residuals, size_t corners) {
+    // As if ten more residuals had been as usual: no picture counts without limit.
+    constexpr double kPrior = 10.0;
+    const double count = 2.0 * static_cast<double>(corners) * freedom;
+    return usual * (count + kPrior) / (squared_residuals + kPrior * usual);
+  };
+  const StereoCalibration& cameras = pair.state.cameras;
+  for (size_t i = 0; i < views.size(); ++i) {
+    const Pose& X_LG = pair.state.X_LG[i];
+    BoardView& view = views[i];
+    view.left_weight =
+        weight(SquaredResiduals(cameras.left, X_LG, view.left, board), view.left.size());
+    view.right_weight = weight(
+        SquaredResiduals(cameras.right, cameras.X_RL * X_LG, view.right, board), view.right.size());
+  }
+}
+
 AdjustedPair Calibrate(const std::vector<NamedView>& views, const CalibrationBoard& board,
                        const StereoCalibratorOptions& options) {
   const SingleCamera left = CalibrateSingle(
@@ -152,18 +195,10 @@ AdjustedPair Calibrate(const std::vector<NamedView>& views, const CalibrationBoa
       .X_LG = left.X_CG};
   std::vector<BoardView> corners;
   for (const NamedView& view : views) corners.push_back(view.corners);
-  return AdjustPair(start, corners, board, options.adjustment);
-}
-
-std::vector<CornerResidual> ResidualsOf(const CameraModel& camera, const Pose& X_CG,
-                                        const std::vector<BoardCorner>& corners,
-                                        const CalibrationBoard& board) {
-  std::vector<CornerResidual> residuals;
-  for (const BoardCorner& corner : corners) {
-    const auto projected = camera.Project(X_CG * board.Corner(corner.id));
-    if (projected) residuals.push_back({corner.pixel, corner.pixel - *projected});
-  }
-  return residuals;
+  const AdjustedPair unweighted = AdjustPair(start, corners, board, options.adjustment);
+  if (!(unweighted.variance() > 0.0)) return unweighted;  // Corners without noise.
+  Weigh(unweighted, board, corners);
+  return AdjustPair(unweighted.state, corners, board, options.adjustment);
 }
 
 double Rms(const std::vector<CornerResidual>& residuals) {
@@ -195,6 +230,12 @@ StereoCalibrationResult ResultOf(const AdjustedPair& pair, const std::vector<Nam
     }
   }
   result.camera_rms_px = {Rms(result.residuals[0]), Rms(result.residuals[1])};
+  std::vector<CornerResidual> all = result.residuals[0];
+  all.insert(all.end(), result.residuals[1].begin(), result.residuals[1].end());
+  result.rms_px = Rms(all);
+  result.corner_deviation_px =
+      result.rms_px *
+      std::sqrt(0.5 * pair.residual_count / (pair.residual_count - pair.unknown_count));
   return result;
 }
 
