@@ -52,7 +52,7 @@ void DrawScatter(cv::Mat3b& canvas, const cv::Rect& area,
                      .title = fmt::format("{} corners, RMS of a coordinate {:.3f} px",
                                           residuals.size(), deviation_px),
                      .x = {"du [px]", -reach, reach},
-                     .y = {"dv [px], down", -reach, reach}});
+                     .y = {"-dv [px]", -reach, reach}});
   std::vector<cv::Point2d> points;
   for (const CornerResidual& r : residuals)
     points.emplace_back(r.residual_px.x(), -r.residual_px.y());

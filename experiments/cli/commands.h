@@ -20,6 +20,7 @@ void AddExportCommand(CLI::App& program, int& exit_code);
 void AddReplayCommand(CLI::App& program, int& exit_code);
 void AddDetectCommand(CLI::App& program, int& exit_code);
 void AddCalibrateCommand(CLI::App& program, int& exit_code);
+void AddEmvaCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);
 
 }  // namespace fenestra::cli

@@ -89,6 +89,7 @@ int Main(int argc, char** argv) {
   AddReplayCommand(program, exit_code);
   AddDetectCommand(program, exit_code);
   AddCalibrateCommand(program, exit_code);
+  AddEmvaCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {
     program.parse(argc, argv);

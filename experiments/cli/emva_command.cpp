@@ -1,0 +1,121 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/atomic_file.h"
+#include "core/did_you_mean.h"
+#include "core/image_io.h"
+#include "core/input_error.h"
+#include "experiments/cli/commands.h"
+#include "experiments/emva/report.h"
+#include "experiments/factors.h"
+#include "sim/spectral_response.h"
+
+namespace fenestra::cli {
+namespace {
+
+struct EmvaArguments {
+  std::filesystem::path folder;
+  bool evaluate_only = false;
+  std::vector<std::string> set;  ///< "factor=value"
+  emva::SimulationOptions simulation;
+  int width_px = 752;
+  int height_px = 480;
+  int output_bits = 10;
+  uint64_t seed = 1;
+};
+
+// The stereo camera's settings with the factors that the user gave.
+TrialSettings SettingsOf(const EmvaArguments& arguments) {
+  TrialSettings settings;
+  settings.stereo.sensor.output_bits = arguments.output_bits;
+  for (const std::string& assignment : arguments.set) {
+    const size_t equals = assignment.find('=');
+    const std::string name = assignment.substr(0, equals);
+    const ParameterInfo* info = Factors().Find(name);
+    if (equals == std::string::npos || info == nullptr) {
+      throw InputError("--set", fmt::format("'{}' is not FACTOR=VALUE with a stereo factor.{}",
+                                            assignment, DidYouMean(name, Factors().Names())));
+    }
+    YamlReader reader = YamlReader::FromText(assignment.substr(equals + 1), "--set " + name);
+    const auto value = info->Read(reader, reader.root());
+    reader.ThrowIfFaulty();
+    Factors().Set(settings, name, *value);
+  }
+  return settings;
+}
+
+void WriteResults(const std::filesystem::path& folder, const emva::Results& results,
+                  const std::optional<emva::PutIn>& put_in) {
+  WriteFileAtomically(folder / "report.md", emva::ReportMarkdown(results, put_in));
+  WriteFileAtomically(folder / "results.json", emva::ReportJson(results, put_in));
+  WritePng(folder / "photon_transfer.png", emva::PhotonTransferPicture(results));
+  fmt::print("{}\nIn {}: emva1288.txt, report.md, results.json, photon_transfer.png\n",
+             emva::ReportText(results, put_in), folder.string());
+}
+
+void Emva(const EmvaArguments& arguments) {
+  const std::filesystem::path descriptor = arguments.folder / "emva1288.txt";
+  if (arguments.evaluate_only) {
+    const emva::Series series = emva::ReadDescriptor(descriptor);
+    return WriteResults(arguments.folder,
+                        emva::Evaluate(series, emva::FilesBeside(descriptor, series)), {});
+  }
+  const TrialSettings settings = SettingsOf(arguments);
+  const ImageSensorOptions& sensor = settings.stereo.sensor;
+  emva::SimulationOptions simulation = arguments.simulation;
+  simulation.size = {arguments.width_px, arguments.height_px};
+  simulation.quantum_efficiency = settings.stereo.spectrum.quantum_efficiency_scale *
+                                  QuantumEfficiency(simulation.wavelength_nm);
+  const emva::Series series = emva::PlanSeries(simulation, sensor);
+  emva::WriteSeries(arguments.folder, series,
+                    emva::Simulate(simulation, sensor, RandomStream(arguments.seed)));
+  // What was written is what is measured.
+  WriteResults(arguments.folder, emva::Evaluate(series, emva::FilesBeside(descriptor, series)),
+               emva::PutInBy(simulation, sensor));
+}
+
+}  // namespace
+
+void AddEmvaCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "emva", "Takes an EMVA 1288 series with the stereo camera's sensor and evaluates it");
+  command->footer(
+      "Examples:\n"
+      "  fenestra emva /tmp/emva\n"
+      "  fenestra emva /tmp/emva --output-bits 8 --gain 4 --set stereo_read_noise_e=16\n"
+      "  fenestra emva my_camera --evaluate-only     frames of a real camera and their "
+      "emva1288.txt");
+  const auto arguments = std::make_shared<EmvaArguments>();
+  command->add_option("DIR", arguments->folder, "Folder for the series and its figures")
+      ->required();
+  command->add_flag("--evaluate-only", arguments->evaluate_only,
+                    "Evaluate the series that is in DIR");
+  command->add_option("--output-bits", arguments->output_bits, "Bits of the frames")
+      ->capture_default_str();
+  command->add_option("--gain", arguments->simulation.gain, "Analogue gain")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--wavelength-nm", arguments->simulation.wavelength_nm, "Of the light")
+      ->capture_default_str();
+  command
+      ->add_option("--exposures", arguments->simulation.exposures,
+                   "Exposures up to saturation; the standard asks for 50")
+      ->capture_default_str();
+  command
+      ->add_option("--frames", arguments->simulation.frames,
+                   "Frames of each stack for the spatial figures")
+      ->capture_default_str();
+  command->add_option("--width-px", arguments->width_px, "Of the frames")->capture_default_str();
+  command->add_option("--height-px", arguments->height_px, "Of the frames")->capture_default_str();
+  command->add_option("--set", arguments->set,
+                      "FACTOR=VALUE, a stereo_… factor; may be given several times");
+  command->add_option("--seed", arguments->seed, "Of the camera and its noise")
+      ->capture_default_str();
+  command->callback([arguments, &exit_code] {
+    Emva(*arguments);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli
