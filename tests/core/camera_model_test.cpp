@@ -79,6 +79,33 @@ TEST(CameraModelTest, RadialGrowthIsPositiveUpToMaxRadiusAndNotBeyond) {
   EXPECT_NEAR(camera.max_radius(), std::sqrt(0.99 / 0.9), 1e-12);
 }
 
+TEST(CameraModelTest, DerivativesAreThoseOfTheProjection) {
+  const CameraModel camera = WideCamera();
+  for (const Vector3d& p : {Vector3d(0.3, -0.2, 1.5), Vector3d(-0.7, 0.4, 1.2),
+                            Vector3d(0.0, 0.0, 2.0), Vector3d(1.0, 0.9, 2.5)}) {
+    const auto at = camera.Linearise(p);
+    ASSERT_TRUE(at);
+    EXPECT_EQ(at->pixel, *camera.Project(p));
+    // Central differences: errors of h² times the third derivative and of 1e-16 f/h.
+    constexpr double h = 1e-5;
+    for (int i = 0; i < 3; ++i) {
+      const Vector3d step = h * Vector3d::Unit(i);
+      const Vector2d slope = (*camera.Project(p + step) - *camera.Project(p - step)) / (2.0 * h);
+      EXPECT_LT((at->by_point.col(i) - slope).norm(), 1e-4) << i;
+    }
+    for (int i = 0; i < 9; ++i) {
+      Eigen::Matrix<double, 9, 1> step = Eigen::Matrix<double, 9, 1>::Zero();
+      step[i] = h;
+      const auto moved = [&](double sign) {
+        return *camera.WithParameters(camera.ParameterVector() + sign * step).Project(p);
+      };
+      const Vector2d slope = (moved(1.0) - moved(-1.0)) / (2.0 * h);
+      EXPECT_LT((at->by_parameters.col(i) - slope).norm(), 1e-4) << i;
+    }
+  }
+  EXPECT_FALSE(camera.Linearise({0.0, 0.0, -1.0}));
+}
+
 TEST(CameraModelTest, ScalingKeepsTheImageBorders) {
   const CameraModel camera = WideCamera();
   const CameraModel half = camera.Scaled(0.5);
