@@ -18,7 +18,7 @@ struct NamedView {
 struct StereoCalibratorOptions {
   cv::Size left_size;
   cv::Size right_size;
-  AdjustmentOptions adjustment;
+  AdjustmentOptions adjustment = {};
   /// A view is left out if its RMS exceeds that of the median view by this factor: a wrong
   /// detection. Corners' noise differs between views by a factor of two or three.
   double outlier_factor = 4.0;
