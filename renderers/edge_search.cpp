@@ -40,21 +40,22 @@ class EdgeSearch {
   EdgeSearch(const PixelSampler& sampler, Film::Pixel pixel)
       : sampler_(sampler), pixel_(pixel), patch_(sampler.PatchOf(pixel)) {}
 
-  std::optional<Film::PixelResult> Run(const Film::PixelResult& known) {
+  std::optional<Film::QuarteredResult> Run(const Film::PixelResult& known) {
     if (!LookAtBorders()) return std::nullopt;
-    if (thing_count_ == 1 && things_[0].key == known.key) return known;
+    if (thing_count_ == 1 && things_[0].key == known.key) {
+      const std::array<Film::Radiance, 4> alike = {known.radiance, known.radiance, known.radiance,
+                                                   known.radiance};
+      return Film::QuarteredResult{.quarters = alike, .key = known.key};
+    }
     if (!LookInside()) return std::nullopt;
-    if (thing_count_ == 1) return Result(1.0f, things_[0].key);
+    if (thing_count_ == 1) return Result({1.0f, 1.0f, 1.0f, 1.0f}, things_[0].key);
     const float ds = things_[0].s_sum / static_cast<float>(things_[0].count) -
                      things_[1].s_sum / static_cast<float>(things_[1].count);
     const float dt = things_[0].t_sum / static_cast<float>(things_[0].count) -
                      things_[1].t_sum / static_cast<float>(things_[1].count);
     along_s_ = std::abs(ds) >= std::abs(dt);
     if (!Bisect() || !Agrees()) return std::nullopt;
-    float area = 0.0f;
-    for (int i = 0; i < kLanes; ++i) area += edge_[i];
-    area /= static_cast<float>(kLanes);
-    return Result(first_ == things_[0].key ? area : 1.0f - area, Film::kMixed);
+    return Result(AreasOfThing0(), Film::kMixed);
   }
 
  private:
@@ -171,14 +172,34 @@ class EdgeSearch {
     return true;
   }
 
-  Film::PixelResult Result(float area_of_thing_0, uint32_t key) const {
-    Film::PixelResult result;
+  using Areas = std::array<float, 4>;  // Of each quarter, in the order of QuarterImages.
+
+  Areas AreasOfThing0() const {
+    Areas areas{};
+    for (int i = 0; i < kLanes; ++i) {
+      const size_t across = i < kLanes / 2 ? 0 : 1;
+      for (const size_t along : {0u, 1u}) {
+        const float covered = std::clamp(2.0f * edge_[i] - static_cast<float>(along), 0.0f, 1.0f);
+        areas[along_s_ ? 2 * across + along : 2 * along + across] += covered;
+      }
+    }
+    for (float& area : areas) {
+      area /= static_cast<float>(kLanes / 2);
+      if (first_ != things_[0].key) area = 1.0f - area;
+    }
+    return areas;
+  }
+
+  Film::QuarteredResult Result(const Areas& of_thing_0, uint32_t key) const {
+    Film::QuarteredResult result;
     result.key = key;
-    const std::array<float, 2> areas = {area_of_thing_0, 1.0f - area_of_thing_0};
-    for (size_t c = 0; c < sampler_.channel_count(); ++c) {
-      for (size_t k = 0; k < thing_count_; ++k) {
-        result.radiance[c] +=
-            areas[k] * things_[k].radiance_sum[c] / static_cast<float>(things_[k].count);
+    for (size_t q = 0; q < of_thing_0.size(); ++q) {
+      const std::array<float, 2> areas = {of_thing_0[q], 1.0f - of_thing_0[q]};
+      for (size_t c = 0; c < sampler_.channel_count(); ++c) {
+        for (size_t k = 0; k < thing_count_; ++k) {
+          result.quarters[q][c] +=
+              areas[k] * things_[k].radiance_sum[c] / static_cast<float>(things_[k].count);
+        }
       }
     }
     return result;
@@ -199,8 +220,8 @@ class EdgeSearch {
 
 }  // namespace
 
-std::optional<Film::PixelResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel,
-                                            const Film::PixelResult& known) {
+std::optional<Film::QuarteredResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel,
+                                                const Film::PixelResult& known) {
   return EdgeSearch(sampler, pixel).Run(known);
 }
 

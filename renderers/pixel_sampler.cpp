@@ -84,6 +84,28 @@ Film::PixelResult PixelSampler::SampleSparsely(Film::Pixel pixel, int samples) c
   return result;
 }
 
+Film::QuarteredResult PixelSampler::SampleQuarters(Film::Pixel pixel, int samples) const {
+  const PixelPatches patch = PatchOf(pixel);
+  Film::QuarteredResult result;
+  for (int first = 0; first < samples; first += kLanes) {
+    const int lanes = std::min(samples, kLanes);
+    const PixelPoints points = SamplePoints(pixel, first);
+    const LightTransport::Arriving arriving = Trace(FirstLanes(lanes), patch, points);
+    if (first == 0) result.key = arriving.key[0];
+    for (int i = 0; i < lanes; ++i) {
+      if (arriving.key[i] != result.key) result.key = Film::kMixed;
+      const size_t q = (points.t[i] < 0.5f ? 0 : 2) + (points.s[i] < 0.5f ? 0 : 1);
+      for (size_t c = 0; c < channel_count(); ++c) {
+        result.quarters[q][c] += arriving.radiance[c][i];
+      }
+    }
+  }
+  for (Film::Radiance& quarter : result.quarters) {
+    for (float& radiance : quarter) radiance *= 4.0f / static_cast<float>(samples);
+  }
+  return result;
+}
+
 void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) const {
   const int columns = std::min(kBlockSide, rays_.width_px() - top_left.column);
   const int rows = std::min(kBlockSide, rays_.height_px() - top_left.row);

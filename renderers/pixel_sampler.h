@@ -32,6 +32,10 @@ class PixelSampler {
   /// The mean of `samples` samples, a multiple of 16.
   Film::PixelResult SampleDensely(Film::Pixel pixel, int samples) const;
 
+  /// Of each quarter of a pixel that which falls on it of `samples` samples: 4, 16, 64 or 256,
+  /// which are the same number in each.
+  Film::QuarteredResult SampleQuarters(Film::Pixel pixel, int samples) const;
+
   /// `samples` samples of each pixel of the block with this top left pixel, as far as it is in the
   /// image.
   void SampleBlock(Film::Pixel top_left, int samples, Film& film) const;

@@ -15,10 +15,8 @@ namespace {
 void SampleEdgePixel(const PixelSampler& sampler, int samples, Film::Pixel pixel, Film& film) {
   if (const auto found = SearchEdge(sampler, pixel, film.At(pixel))) {
     film.Set(pixel, *found);
-  } else if (samples >= kLanes) {
-    film.Set(pixel, sampler.SampleDensely(pixel, samples));
   } else {
-    film.Set(pixel, sampler.SampleSparsely(pixel, samples));
+    film.Set(pixel, sampler.SampleQuarters(pixel, samples));
   }
 }
 
@@ -42,8 +40,8 @@ void Validate(const RenderOptions& options) {
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
-cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
-                    const RenderOptions& options, const RandomStream& sampling) {
+Film SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
+                 const RenderOptions& options, const RandomStream& sampling) {
   const PixelSampler sampler(light, rays, camera, sampling.key());
   const cv::Size size(rays.width_px(), rays.height_px());
   Film film(size.width, size.height, light.channel_count());
@@ -60,8 +58,9 @@ cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const Floa
       }
     }
   }
+  film.MarkEdges();
   if (options.edge_samples_per_pixel > options.samples_per_pixel) {
-    const cv::Mat1b edges = film.Edges();
+    const cv::Mat1b& edges = film.edges();
     for (int row = 0; row < size.height; ++row) {
       for (int column = 0; column < size.width; ++column) {
         if (edges(row, column) == 0) continue;
@@ -69,7 +68,7 @@ cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const Floa
       }
     }
   }
-  return film.TakeRadiance();
+  return film;
 }
 
 }  // namespace fenestra

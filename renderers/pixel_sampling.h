@@ -3,20 +3,21 @@
 #include <opencv2/core.hpp>
 
 #include "core/random_stream.h"
+#include "renderers/film.h"
 #include "renderers/light_transport.h"
 #include "renderers/ray_caster.h"
 #include "renderers/ray_grid.h"
 
 namespace fenestra {
 
-/// The mean radiance of each pixel's area: a few samples everywhere; then, wherever two different
-/// things meet among the samples of a pixel and its eight neighbours, the edge between them (see
-/// SearchEdge), or many samples where there is more than an edge.
+/// The mean radiance of each pixel's area, and of its quarters: a few samples everywhere; then,
+/// wherever two different things meet among the samples of a pixel and its eight neighbours, the
+/// edge between them (see SearchEdge), or many samples where there is more than an edge.
 ///
 /// Sample i of a pixel is Sobol point i, scrambled (see net_samples.h) by a hash of the stream's
 /// key and the pixel's index. So samples of a pixel are stratified along x and along y, and the
 /// errors of different pixels are independent.
-cv::Mat SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
-                    const RenderOptions& options, const RandomStream& sampling);
+Film SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
+                 const RenderOptions& options, const RandomStream& sampling);
 
 }  // namespace fenestra

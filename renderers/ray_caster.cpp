@@ -65,7 +65,16 @@ cv::Mat RayCaster::Render(const RayGrid& rays, const Pose& X_WC, const Lighting&
   Validate(lighting);
   Validate(options);
   const LightTransport light = impl_->Light(rays, X_WC, lighting, ChannelsOf(options.band));
-  return SampleImage(light, rays, ToFloat(X_WC), options, sampling);
+  return SampleImage(light, rays, ToFloat(X_WC), options, sampling).TakeRadiance();
+}
+
+QuarterImages RayCaster::RenderQuarters(const RayGrid& rays, const Pose& X_WC,
+                                        const Lighting& lighting, const RenderOptions& options,
+                                        const RandomStream& sampling) const {
+  Validate(lighting);
+  Validate(options);
+  const LightTransport light = impl_->Light(rays, X_WC, lighting, ChannelsOf(options.band));
+  return SampleImage(light, rays, ToFloat(X_WC), options, sampling).TakeQuarters();
 }
 
 AovImages RayCaster::CastAovs(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
@@ -30,6 +31,10 @@ struct RenderOptions {
   /// samples go to pixels with more in them than one edge: 256 place edges there to about 0.006 px.
   int edge_samples_per_pixel = 256;
 };
+
+/// Four images of one size, of the quarters of their pixels: upper left, upper right, lower left,
+/// lower right.
+using QuarterImages = std::array<cv::Mat, 4>;
 
 /// Throws InputError, with all faults, unless the sample counts are allowed ones.
 void Validate(const RenderOptions& options);
@@ -88,6 +93,11 @@ class RayCaster {
   /// the camera. `sampling` scrambles the sample positions within the pixels.
   cv::Mat Render(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
                  const RenderOptions& options, const RandomStream& sampling) const;
+
+  /// The same over each quarter of each pixel, for a point spread that is narrower than a pixel:
+  /// such a spread softens the light before pixels gather it, which whole pixels no longer tell.
+  QuarterImages RenderQuarters(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
+                               const RenderOptions& options, const RandomStream& sampling) const;
 
   AovImages CastAovs(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
                      const AovOptions& options) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "core/check.h"
 #include "core/wide.h"
@@ -11,15 +11,105 @@
 namespace fenestra {
 namespace {
 
-double DiscreteVariance(double sigma_px, int reach) {
-  double sum = 1.0;
+// Weights of the quarters left and right of the pixels' centres (or above and below), from the
+// pixel `reach` before to that `reach` after.
+struct HalfTaps {
+  int reach = 0;
+  std::vector<float> before;  // At k - 1/4 px, k from -reach to reach,
+  std::vector<float> after;   // and at k + 1/4 px.
+};
+
+double Moment(const std::vector<double>& weights, double first, int power) {
   double moment = 0.0;
-  for (int i = 1; i <= reach; ++i) {
-    const double weight = 2.0 * std::exp(-0.5 * i * i / (sigma_px * sigma_px));
-    sum += weight;
-    moment += weight * i * i;
+  for (size_t i = 0; i < weights.size(); ++i) {
+    moment += weights[i] * std::pow(first + 0.5 * static_cast<double>(i), power);
   }
-  return moment / sum;
+  return moment;
+}
+
+// A Gaussian averaged over a pixel, at half-pixel steps from -reach - 1/4; sum 1.
+std::vector<double> GaussianOverPixel(double sigma_px, int reach) {
+  std::vector<double> weights;
+  for (int i = 0; i < 4 * reach + 2; ++i) {
+    const double x = -reach - 0.25 + 0.5 * i;
+    const double scale = 1.0 / (sigma_px * std::numbers::sqrt2);
+    weights.push_back(std::erf((x + 0.5) * scale) - std::erf((x - 0.5) * scale));
+  }
+  const double sum = Moment(weights, 0.0, 0);
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+HalfTaps TapsOf(double sigma_px) {
+  FENESTRA_CHECK(sigma_px >= 0.0 && sigma_px <= 20.0, "blur must be between 0 and 20 px");
+  const int reach = static_cast<int>(std::ceil(5.0 * sigma_px + 0.25));
+  // Half-pixel steps tell a narrow Gaussian's variance a little wrong: find the one whose weights
+  // have the wanted variance.
+  const double variance = sigma_px * sigma_px + 1.0 / 16.0;
+  const double first = -reach - 0.25;
+  double low = 1e-3;
+  double high = sigma_px + 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (Moment(GaussianOverPixel(middle, reach), first, 2) < variance ? low : high) = middle;
+  }
+  const std::vector<double> weights = GaussianOverPixel(low, reach);
+  HalfTaps taps{.reach = reach, .before = {}, .after = {}};
+  for (size_t i = 0; i < weights.size(); i += 2) {
+    taps.before.push_back(static_cast<float>(weights[i]));
+    taps.after.push_back(static_cast<float>(weights[i + 1]));
+  }
+  return taps;
+}
+
+FENESTRA_WIDE void AddScaled(const float* in, float weight, float* sum, int count) {
+  for (int i = 0; i < count; ++i) sum[i] += weight * in[i];
+}
+
+// The column of quarters on one side of the pixels' centres, of one row of pixels: weighted over
+// the rows around it, and replicated by `reach` at both ends.
+void GatherColumn(const cv::Mat& upper, const cv::Mat& lower, const HalfTaps& taps, int row,
+                  std::vector<float>& gathered) {
+  std::fill(gathered.begin(), gathered.end(), 0.0f);
+  float* inside = gathered.data() + taps.reach;
+  for (int k = -taps.reach; k <= taps.reach; ++k) {
+    const auto tap = static_cast<size_t>(k + taps.reach);
+    const int from = row + k;
+    // Beyond the border both halves repeat the outermost one.
+    const cv::Mat& above = from >= upper.rows ? lower : upper;
+    const cv::Mat& below = from < 0 ? upper : lower;
+    const int inner = std::clamp(from, 0, upper.rows - 1);
+    AddScaled(above.ptr<float>(inner), taps.before[tap], inside, upper.cols);
+    AddScaled(below.ptr<float>(inner), taps.after[tap], inside, upper.cols);
+  }
+}
+
+void Replicate(std::vector<float>& row, int reach, float first, float last) {
+  std::fill_n(row.begin(), reach, first);
+  std::fill_n(row.end() - reach, reach, last);
+}
+
+// One kernel over all quarters around each pixel.
+cv::Mat1f GatherQuarters(const QuarterImages& quarters, const HalfTaps& taps) {
+  const auto& [upper_left, upper_right, lower_left, lower_right] = quarters;
+  cv::Mat1f pixels = cv::Mat1f::zeros(upper_left.size());
+  const int width = pixels.cols;
+  std::vector<float> left(static_cast<size_t>(width + 2 * taps.reach));
+  std::vector<float> right(left.size());
+  for (int row = 0; row < pixels.rows; ++row) {
+    GatherColumn(upper_left, lower_left, taps, row, left);
+    GatherColumn(upper_right, lower_right, taps, row, right);
+    const float first = left[static_cast<size_t>(taps.reach)];
+    const float last = right[static_cast<size_t>(taps.reach + width - 1)];
+    Replicate(left, taps.reach, first, last);
+    Replicate(right, taps.reach, first, last);
+    for (int k = 0; k <= 2 * taps.reach; ++k) {
+      const auto tap = static_cast<size_t>(k);
+      AddScaled(left.data() + k, taps.before[tap], pixels[row], width);
+      AddScaled(right.data() + k, taps.after[tap], pixels[row], width);
+    }
+  }
+  return pixels;
 }
 
 // ρ² = 1 at the outer corners of the corner pixels.
@@ -100,36 +190,10 @@ cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens) {
   return relative;
 }
 
-std::vector<float> GaussianTaps(double sigma_px) {
-  FENESTRA_CHECK(sigma_px >= 0.0 && sigma_px <= 20.0, "blur must be between 0 and 20 px");
-  if (sigma_px < 0.01) return {1.0f};
-  const int reach = std::max(1, static_cast<int>(std::ceil(5.0 * sigma_px)));
-  // Sampling a narrow Gaussian at whole pixels loses variance (0.45 px would act as 0.38 px): find
-  // the one whose samples have the wanted variance.
-  const double variance = sigma_px * sigma_px;
-  double low = 0.05;
-  double high = sigma_px + 1.0;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (low + high);
-    (DiscreteVariance(middle, reach) < variance ? low : high) = middle;
-  }
-  std::vector<double> weights;
-  double sum = 0.0;
-  for (int i = -reach; i <= reach; ++i) {
-    weights.push_back(std::exp(-0.5 * i * i / (high * high)));
-    sum += weights.back();
-  }
-  std::vector<float> taps;
-  for (const double weight : weights) taps.push_back(static_cast<float>(weight / sum));
-  return taps;
-}
-
-cv::Mat1f Blur(const cv::Mat1f& image, const PointSpread& spread) {
+cv::Mat1f Gather(const QuarterImages& quarters, const PointSpread& spread) {
   FENESTRA_CHECK(spread.corner_sigma_px >= spread.centre_sigma_px,
                  "an image is blurred least in its centre");
-  const std::vector<float> taps = GaussianTaps(spread.centre_sigma_px);
-  cv::Mat1f blurred;
-  cv::sepFilter2D(image, blurred, CV_32F, taps, taps, cv::Point(-1, -1), 0.0, cv::BORDER_REPLICATE);
+  cv::Mat1f blurred = GatherQuarters(quarters, TapsOf(spread.centre_sigma_px));
   const double rest = spread.corner_sigma_px * spread.corner_sigma_px -
                       spread.centre_sigma_px * spread.centre_sigma_px;
   // A three-tap kernel of variance 1/4 is close to a Gaussian; more of it takes several.

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <vector>
 
+#include "renderers/ray_caster.h"
 #include "renderers/ray_grid.h"
 
 namespace fenestra {
@@ -35,12 +35,14 @@ double IlluminancePerLuminance(const LensOptions& lens);
 /// ray's angle to the optical axis, times the barrel's, 1 - (1 - corner_illumination) ρ².
 cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens);
 
-/// Convolves with a point spread: a sampled Gaussian whose discrete variance is exactly σ₀²,
-/// followed by three-tap kernels whose discrete variances add up to the rest, exactly, at every
-/// pixel. The border is replicated. Domain: 0 ≤ σ₀ ≤ σ₁ ≤ 20 px.
-cv::Mat1f Blur(const cv::Mat1f& image, const PointSpread& spread);
-
-/// Taps of a Gaussian, of odd number, sum 1 and variance sigma_px². Domain: 0 ≤ sigma_px ≤ 20.
-std::vector<float> GaussianTaps(double sigma_px);
+/// What pixels gather of an image that a lens has softened: the mean over each pixel's area of the
+/// image convolved with a point spread. The light is known by quarters of pixels: from whole pixels
+/// it would be too late to soften it, and edges along rows would stand up to 0.03 px off.
+///
+/// One kernel over the quarters, of a Gaussian and the pixel's square, has the discrete variance
+/// σ₀² + 1/16, which with the quarters' own 1/48 is that of the optics and the pixel, σ₀² + 1/12.
+/// Three-tap kernels whose discrete variances add up to σ² - σ₀², exactly, at every pixel follow.
+/// The border is replicated. Domain: 0 ≤ σ₀ ≤ σ₁ ≤ 20 px; single-channel float images of one size.
+cv::Mat1f Gather(const QuarterImages& quarters, const PointSpread& spread);
 
 }  // namespace fenestra

@@ -169,14 +169,10 @@ StereoRig StereoRig::Still() const {
   return still;
 }
 
-double StereoRig::ElectronsPerSecondPerLuminance() const {
-  return ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
-         IlluminancePerLuminance(options_.lens);
-}
-
-cv::Mat1f StereoRig::Luminance(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
-                               const Lighting& lighting, const Pose& X_WB, double t_s,
-                               double exposure_s, const RandomStream& sampling) const {
+cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const Pose& X_BC,
+                                        const RayCaster& caster, const Lighting& lighting,
+                                        const Pose& X_WB, double t_s, double exposure_s,
+                                        const RandomStream& sampling) const {
   const RenderOptions render{.band = Band::kLuminance,
                              .samples_per_pixel = 4,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
@@ -190,24 +186,31 @@ cv::Mat1f StereoRig::Luminance(const Camera& camera, const Pose& X_BC, const Ray
                   LargestRadius(camera.rays), kNearest_m);
   const int pictures =
       std::max(1, static_cast<int>(std::ceil(std::min(motion_px / kStep_px, kMostPictures))));
-  cv::Mat1f sum;
+  QuarterImages sum;
   for (int i = 0; i < pictures; ++i) {
     const double middle_s = t_s + ((i + 0.5) / pictures - 0.5) * exposure_s;
     const Pose X_WC = PoseAt(X_WB, options_.motion, middle_s) * X_BC;
-    const cv::Mat1f picture = caster.Render(camera.rays, X_WC, lighting, render,
-                                            sampling.Child("picture", static_cast<uint64_t>(i)));
-    sum = sum.empty() ? picture : cv::Mat1f(sum + picture);
+    const QuarterImages picture = caster.RenderQuarters(
+        camera.rays, X_WC, lighting, render, sampling.Child("picture", static_cast<uint64_t>(i)));
+    for (size_t q = 0; q < sum.size(); ++q) {
+      if (i == 0) {
+        sum[q] = picture[q];
+      } else {
+        sum[q] += picture[q];
+      }
+    }
   }
-  return sum.mul(camera.illumination, 1.0 / pictures);
+  const double electrons_per_luminance =
+      ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
+      IlluminancePerLuminance(options_.lens);
+  return Gather(sum, {.centre_sigma_px = options_.lens.blur_sigma_px,
+                      .corner_sigma_px = options_.lens.corner_blur_sigma_px})
+      .mul(camera.illumination, electrons_per_luminance / pictures);
 }
 
-cv::Mat1b StereoRig::Develop(const Camera& camera, const cv::Mat1f& luminance,
+cv::Mat1b StereoRig::Develop(const Camera& camera, const cv::Mat1f& electrons_per_s,
                              const ExposureSetting& exposure, const RandomStream& frame) const {
-  const cv::Mat1f blurred =
-      Blur(luminance, {.centre_sigma_px = options_.lens.blur_sigma_px,
-                       .corner_sigma_px = options_.lens.corner_blur_sigma_px});
-  const cv::Mat1w dn =
-      camera.sensor.Expose(blurred * ElectronsPerSecondPerLuminance(), exposure, frame);
+  const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, frame);
   // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
   cv::Mat1b image;
   dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));
@@ -218,15 +221,17 @@ StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& li
                                      const Pose& X_WB, const RandomStream& shot) const {
   const RandomStream left_sampling = shot.Child("left_sampling");
   // The exposure is chosen by a picture without motion blur, which has the same mean.
-  cv::Mat1f left = Luminance(*left_, X_BL_, caster, lighting, X_WB, 0.0, 0.0, left_sampling);
-  const ExposureSetting exposure = ChooseExposure(
-      options_.exposure, options_.sensor, cv::mean(left)[0] * ElectronsPerSecondPerLuminance());
+  cv::Mat1f left =
+      ElectronsPerSecond(*left_, X_BL_, caster, lighting, X_WB, 0.0, 0.0, left_sampling);
+  const ExposureSetting exposure =
+      ChooseExposure(options_.exposure, options_.sensor, cv::mean(left)[0]);
   const double time_s = exposure.exposure_s;
   if (!options_.motion.still()) {
-    left = Luminance(*left_, X_BL_, caster, lighting, X_WB, 0.0, time_s, left_sampling);
+    left = ElectronsPerSecond(*left_, X_BL_, caster, lighting, X_WB, 0.0, time_s, left_sampling);
   }
-  const cv::Mat1f right = Luminance(*right_, X_BR(), caster, lighting, X_WB,
-                                    options_.trigger_skew_s, time_s, shot.Child("right_sampling"));
+  const cv::Mat1f right =
+      ElectronsPerSecond(*right_, X_BR(), caster, lighting, X_WB, options_.trigger_skew_s, time_s,
+                         shot.Child("right_sampling"));
   return {.left = Develop(*left_, left, exposure, shot.Child("left_noise")),
           .right = Develop(*right_, right, exposure, shot.Child("right_noise"))};
 }

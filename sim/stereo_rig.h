@@ -92,13 +92,12 @@ class StereoRig {
     ImageSensor sensor;
   };
 
-  /// Luminance on the sensor, relative to the lens' axis, averaged over an exposure around t.
-  cv::Mat1f Luminance(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
-                      const Lighting& lighting, const Pose& X_WB, double t_s, double exposure_s,
-                      const RandomStream& sampling) const;
-  cv::Mat1b Develop(const Camera& camera, const cv::Mat1f& luminance,
+  /// Photo-electrons per pixel and second, averaged over an exposure around t.
+  cv::Mat1f ElectronsPerSecond(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
+                               const Lighting& lighting, const Pose& X_WB, double t_s,
+                               double exposure_s, const RandomStream& sampling) const;
+  cv::Mat1b Develop(const Camera& camera, const cv::Mat1f& electrons_per_s,
                     const ExposureSetting& exposure, const RandomStream& frame) const;
-  double ElectronsPerSecondPerLuminance() const;
 
   StereoRigOptions options_;
   StereoCalibration cameras_;

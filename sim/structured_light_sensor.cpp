@@ -136,17 +136,21 @@ cv::Mat3b StructuredLightSensor::ObserveColor(const RayCaster& caster, const Lig
   const RenderOptions render{.band = Band::kRgb,
                              .samples_per_pixel = 4,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
-  cv::Mat3f luminance = caster.Render(color_rays_, X_WB * nominal_.X_KD.inverse(), lighting, render,
-                                      shot.Child("color_sampling"));
+  const QuarterImages luminance = caster.RenderQuarters(
+      color_rays_, X_WB * nominal_.X_KD.inverse(), lighting, render, shot.Child("color_sampling"));
   std::array<cv::Mat1f, 3> channels;
-  cv::split(luminance, channels.data());
   const std::array<double, 3> blur = {options_.color_blue_blur, 1.0, options_.color_red_blur};
   const double electrons_per_s =
       options_.color_electrons_per_lux_s * IlluminancePerLuminance(options_.color_lens);
   for (size_t i = 0; i < channels.size(); ++i) {
-    channels[i] = Blur(channels[i].mul(color_illumination_, electrons_per_s),
-                       {.centre_sigma_px = blur[i] * options_.color_lens.blur_sigma_px,
-                        .corner_sigma_px = blur[i] * options_.color_lens.corner_blur_sigma_px});
+    QuarterImages quarters;
+    for (size_t q = 0; q < quarters.size(); ++q) {
+      cv::extractChannel(luminance[q], quarters[q], static_cast<int>(i));
+    }
+    channels[i] =
+        Gather(quarters, {.centre_sigma_px = blur[i] * options_.color_lens.blur_sigma_px,
+                          .corner_sigma_px = blur[i] * options_.color_lens.corner_blur_sigma_px})
+            .mul(color_illumination_, electrons_per_s);
   }
   const double exposure_s = ColorExposure(channels);
   std::array<cv::Mat1b, 3> encoded;

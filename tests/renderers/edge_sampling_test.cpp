@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "renderers/film.h"
 #include "renderers/net_samples.h"
 #include "renderers/ray_caster.h"
 #include "tests/renderers/test_scenes.h"
@@ -72,14 +73,15 @@ std::vector<double> EdgeErrors(const Edge& edge, int edge_samples) {
   return errors;
 }
 
-// The part of a unit square around (x, y) that lies left of or above the edge: the square is cut
-// by the edge's half-plane (Sutherland and Hodgman), then measured.
-double Coverage(const Edge& edge, double x, double y) {
+// The part of a square around (x, y) that lies left of or above the edge: the square is cut by the
+// edge's half-plane (Sutherland and Hodgman), then measured.
+double Coverage(const Edge& edge, double x, double y, double side_px = 1.0) {
   // Signed distance from the edge [px], y downwards: positive on the bright side.
   const Eigen::Vector2d bright(-std::cos(edge.tilt_rad), -std::sin(edge.tilt_rad));
   const Eigen::Vector2d on_edge(edge.right_px, edge.below_px);
-  std::vector<Eigen::Vector2d> corners = {
-      {x - 0.5, y - 0.5}, {x + 0.5, y - 0.5}, {x + 0.5, y + 0.5}, {x - 0.5, y + 0.5}};
+  const double h = 0.5 * side_px;
+  const std::vector<Eigen::Vector2d> corners = {
+      {x - h, y - h}, {x + h, y - h}, {x + h, y + h}, {x - h, y + h}};
   std::vector<Eigen::Vector2d> inside;
   for (size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d& a = corners[i];
@@ -95,7 +97,7 @@ double Coverage(const Edge& edge, double x, double y) {
     const Eigen::Vector2d& b = inside[(i + 1) % inside.size()];
     area += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
-  return area;
+  return area / (side_px * side_px);
 }
 
 double Rms(const std::vector<double>& errors) {
@@ -152,6 +154,65 @@ TEST(EdgeSampling, PixelsGetTheAreaThatTheEdgeLeavesThem) {
     EXPECT_GT(crossed, kSize / 2);
     EXPECT_LT(std::sqrt(sum / crossed), 0.0025) << tilt_deg;
   }
+}
+
+TEST(EdgeSampling, QuartersOfPixelsGetTheirAreasToo) {
+  for (const double tilt_deg : kTilts_deg) {
+    const Edge edge{.tilt_rad = Radians(tilt_deg)};
+    const RayCaster caster(HalfPlane(edge));
+    const RayGrid rays(CameraModel::Pinhole(kSize, kSize, kFocal_px));
+    const Pose X_WC = FacingTheWall({0, 0, kDistance});
+    const Lighting sun = OnlySun(0.0, 0.1, 1e5);
+    const cv::Mat1f whole = caster.Render(rays, X_WC, sun, {}, RandomStream(4));
+    const QuarterImages quarters = caster.RenderQuarters(rays, X_WC, sun, {}, RandomStream(4));
+    double full = 0.0;
+    cv::minMaxLoc(whole, nullptr, &full);
+    cv::Mat1f mean = cv::Mat1f::zeros(whole.size());
+    double sum = 0.0;
+    int crossed = 0;
+    for (size_t q = 0; q < quarters.size(); ++q) {
+      const cv::Mat1f& quarter = quarters[q];
+      mean += 0.25 * quarter;
+      for (int v = 0; v < kSize; ++v) {
+        for (int u = 0; u < kSize; ++u) {
+          const double x = u - 0.5 * (kSize - 1) + (q % 2 == 0 ? -0.25 : 0.25);
+          const double y = v - 0.5 * (kSize - 1) + (q / 2 == 0 ? -0.25 : 0.25);
+          const double area = Coverage(edge, x, y, 0.5);
+          const double error = static_cast<double>(quarter(v, u)) / full - area;
+          EXPECT_LT(std::abs(error), 0.07) << tilt_deg << ": " << u << ", " << v;
+          if (area <= 0.0 || area >= 1.0) continue;
+          sum += error * error;
+          ++crossed;
+        }
+      }
+    }
+    EXPECT_LT(cv::norm(mean, whole, cv::NORM_INF), 1e-5 * full);
+    EXPECT_LT(std::sqrt(sum / crossed), 0.006) << tilt_deg;
+  }
+}
+
+TEST(FilmTest, QuartersFollowASlopeUpToAnEdgeAndNotAcrossIt) {
+  Film film(12, 5, 1);
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 12; ++column) {
+      Film::PixelResult pixel{.radiance = {}, .key = column < 8 ? 1u : 2u};
+      pixel.radiance[0] =
+          column < 8 ? 2.0f * static_cast<float>(column) + static_cast<float>(row) : 1000.0f;
+      film.Set({column, row}, pixel);
+    }
+  }
+  film.MarkEdges();
+  const QuarterImages quarters = film.TakeQuarters();
+  const auto quarter = [&](size_t q, int column) { return quarters[q].at<float>(2, column); };
+  // A quarter's centre is 1/4 px off in each direction.
+  EXPECT_FLOAT_EQ(quarter(0, 3), 8.0f - 0.5f - 0.25f);
+  EXPECT_FLOAT_EQ(quarter(1, 3), 8.0f + 0.5f - 0.25f);
+  EXPECT_FLOAT_EQ(quarter(2, 3), 8.0f - 0.5f + 0.25f);
+  EXPECT_FLOAT_EQ(quarter(3, 3), 8.0f + 0.5f + 0.25f);
+  // The last pixel before the edge and the one before it, which has it for a neighbour.
+  EXPECT_FLOAT_EQ(quarter(0, 7), 16.0f);
+  EXPECT_FLOAT_EQ(quarter(1, 6), 14.0f - 0.25f);
+  EXPECT_FLOAT_EQ(quarter(1, 9), 1000.0f);
 }
 
 // The twin with a fault: the base samples alone do not do it.

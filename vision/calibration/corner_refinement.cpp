@@ -16,27 +16,49 @@ using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 // Places of the unknowns.
 enum : int { kX, kY, kAngle1, kAngle2, kBlur, kLevel, kContrast, kShadeX, kShadeY };
 
-constexpr double kLeastBlur_px = 0.2;
+constexpr double kLeastBlur_px = 0.1;
 constexpr double kLeastContrast_dn = 3.0;
+constexpr double kPixelVariance = 1.0 / 12.0;  // Of a unit square, in any direction.
 
-// One blurred edge: its profile at a point and the profile's derivatives.
+// The antiderivative of the edge profile erf(x/(√2 s)), and its derivatives.
+struct ProfileIntegral {
+  ProfileIntegral(double x, double s) {
+    const double bell = std::sqrt(2.0 / std::numbers::pi) * std::exp(-0.5 * x * x / (s * s));
+    by_x = std::erf(x / (s * std::numbers::sqrt2));
+    value = x * by_x + s * bell;
+    by_s = bell;
+  }
+  double value;
+  double by_x;
+  double by_s;
+};
+
+// One edge as pixels see it: blurred, then averaged over the pixel's square, which is as wide as
+// two boxes of |cos| and |sin| of the normal's angle. The wide box is integrated exactly; the
+// narrow one widens the blur by its variance.
 struct Edge {
   Edge(double angle, double blur_px, const Vector2d& offset)
       : normal(std::cos(angle), std::sin(angle)) {
-    distance = normal.dot(offset) / blur_px;
-    value = std::erf(distance * std::numbers::sqrt2 / 2.0);
-    density = std::sqrt(2.0 / std::numbers::pi) * std::exp(-0.5 * distance * distance);
-    by_offset = density / blur_px;
+    const double wide = std::max(std::abs(normal.x()), std::abs(normal.y()));
+    const double narrow = std::min(std::abs(normal.x()), std::abs(normal.y()));
+    const double blur = std::sqrt(blur_px * blur_px + narrow * narrow * kPixelVariance);
+    const double d = normal.dot(offset);
+    const ProfileIntegral far(d + 0.5 * wide, blur);
+    const ProfileIntegral near(d - 0.5 * wide, blur);
+    value = (far.value - near.value) / wide;
+    by_offset = (far.by_x - near.by_x) / wide;
+    by_blur = (far.by_s - near.by_s) / wide * blur_px / blur;
     by_angle = by_offset * (normal.x() * offset.y() - normal.y() * offset.x());
-    by_blur = -by_offset * distance;
+    distance = d / std::sqrt(blur_px * blur_px + kPixelVariance);
+    density = std::sqrt(2.0 / std::numbers::pi) * std::exp(-0.5 * distance * distance);
   }
   Vector2d normal;
-  double distance;  // In units of the blur.
-  double value;
-  double density;
+  double value;  // From -1 to 1.
   double by_offset;
   double by_angle;
   double by_blur;
+  double distance;  // In units of the whole blur.
+  double density;
 };
 
 // Blur moves both edges together; where they do not cross at right angles, ρ = n₁·n₂, the corner's
@@ -111,7 +133,7 @@ std::optional<Vector2d> RefineCorner(const cv::Mat1b& image, const CornerGuess& 
   p.head<2>() = guess.pixel;
   p[kAngle1] = NormalAngle(guess.along_row);
   p[kAngle2] = NormalAngle(guess.along_column);
-  p[kBlur] = 0.8;
+  p[kBlur] = 0.6;
   FitGrey(image, guess.radius_px, p);
   for (int i = 0; i < kMostSteps; ++i) {
     const auto normals = Linearise(image, p, guess.radius_px);

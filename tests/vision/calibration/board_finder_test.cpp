@@ -62,7 +62,7 @@ TEST(BoardFinderTest, CornersAreWhereTheTrueCamerasProjectThem) {
   session.largest_tilt_rad = 0.5;
   const CornerErrors errors = ErrorsOf(session, 6);
   EXPECT_EQ(errors.corners, 2 * 6 * session.board.corner_count());
-  EXPECT_LT(errors.rms_px, 0.008);
+  EXPECT_LT(errors.rms_px, 0.006);
   EXPECT_LT(errors.worst_px, 0.03);
 }
 
