@@ -25,8 +25,11 @@ StereoCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
   BoardSessionOptions session;
   session.board.kind = choice.board;
   session.views = choice.boards;
-  const auto calibrate = [&] { return CalibrateWithBoards(rig, session, stream).calibration; };
-  return cache.Get(ContentOf(rig, session, stream), calibrate);
+  // A study that leaves the noise out of its pictures asks what the calibration alone does: the
+  // pictures of the boards have theirs.
+  const StereoRig noisy = rig.WithNoise();
+  const auto calibrate = [&] { return CalibrateWithBoards(noisy, session, stream).calibration; };
+  return cache.Get(ContentOf(noisy, session, stream), calibrate);
 }
 
 }  // namespace

@@ -138,10 +138,15 @@ StereoCalibration DesignOf(const StereoRigOptions& options) {
 }
 
 StereoRig::Camera::Camera(const CameraModel& model, const StereoRigOptions& options,
-                          const RandomStream& stream)
-    : rays(model),
+                          const RandomStream& own)
+    : stream(own),
+      rays(model),
       illumination(RelativeIllumination(rays, options.lens)),
-      sensor(options.sensor, {model.width_px(), model.height_px()}, stream) {}
+      sensor(options.sensor, {model.width_px(), model.height_px()}, own) {}
+
+void StereoRig::Camera::SetSensor(const ImageSensorOptions& options) {
+  sensor = ImageSensor(options, sensor.size(), stream);
+}
 
 StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
     : options_((Validate(options), options)),
@@ -167,6 +172,19 @@ StereoRig StereoRig::Still() const {
   still.options_.motion = {};
   still.options_.trigger_skew_s = 0.0;
   return still;
+}
+
+StereoRig StereoRig::WithNoise() const {
+  if (options_.sensor.noise && options_.sensor.fixed_pattern) return *this;
+  StereoRig noisy = *this;
+  noisy.options_.sensor.noise = true;
+  noisy.options_.sensor.fixed_pattern = true;
+  for (std::shared_ptr<const Camera>* side : {&noisy.left_, &noisy.right_}) {
+    Camera camera = **side;
+    camera.SetSensor(noisy.options_.sensor);
+    *side = std::make_shared<const Camera>(std::move(camera));
+  }
+  return noisy;
 }
 
 cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const Pose& X_BC,

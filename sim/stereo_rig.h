@@ -68,6 +68,8 @@ class StereoRig {
   StereoRig Displaced(const Pose& X_RRnew) const;
   /// This rig standing still, with both cameras triggered at once.
   StereoRig Still() const;
+  /// This rig with the noise and the fixed pattern of its sensors, if its options leave them out.
+  StereoRig WithNoise() const;
 
   const StereoRigOptions& options() const { return options_; }
   /// The truth; what detectors are told is another matter.
@@ -86,7 +88,9 @@ class StereoRig {
  private:
   // What does not change when a rig is displaced.
   struct Camera {
-    Camera(const CameraModel& model, const StereoRigOptions& options, const RandomStream& stream);
+    Camera(const CameraModel& model, const StereoRigOptions& options, const RandomStream& own);
+    void SetSensor(const ImageSensorOptions& options);
+    RandomStream stream;
     RayGrid rays;
     cv::Mat1f illumination;
     ImageSensor sensor;
