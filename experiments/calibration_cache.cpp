@@ -29,11 +29,19 @@ std::string AsComments(const std::string& text) {
   return comments;
 }
 
+// What a file holds of a calibration: its sum shows damage.
+std::string Sealed(const std::string& yaml, const std::string& comments) {
+  return yaml + fmt::format("# sum {:016x}\n", HashOf(yaml)) + comments;
+}
+
 std::optional<StereoCalibration> Read(const std::filesystem::path& file,
                                       const std::string& comments) {
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!text.ends_with(comments)) return std::nullopt;
+  const size_t end = text.find("# sum ");
+  if (end == std::string::npos || text != Sealed(text.substr(0, end), comments)) {
+    return std::nullopt;
+  }
   try {
     return ReadStereoCalibration(file);
   } catch (const InputError&) {
@@ -64,7 +72,7 @@ StereoCalibration CalibrationCache::Get(const std::string& content,
   if (const auto known = Read(file, comments)) return *known;
   const StereoCalibration computed = compute();
   try {
-    WriteFileAtomically(file, ToOpenCvYaml(computed) + comments);
+    WriteFileAtomically(file, Sealed(ToOpenCvYaml(computed), comments));
   } catch (const InputError&) {
     // Computed again next time.
   }

@@ -187,10 +187,9 @@ StereoRig StereoRig::WithNoise() const {
   return noisy;
 }
 
-cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const Pose& X_BC,
-                                        const RayCaster& caster, const Lighting& lighting,
-                                        const Pose& X_WB, double t_s, double exposure_s,
-                                        const RandomStream& sampling) const {
+QuarterImages StereoRig::Light(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
+                               const Lighting& lighting, const Pose& X_WB, double t_s,
+                               double exposure_s, const RandomStream& sampling) const {
   const RenderOptions render{.band = Band::kLuminance,
                              .samples_per_pixel = 4,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
@@ -210,48 +209,64 @@ cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const Pose& X_BC,
     const Pose X_WC = PoseAt(X_WB, options_.motion, middle_s) * X_BC;
     const QuarterImages picture = caster.RenderQuarters(
         camera.rays, X_WC, lighting, render, sampling.Child("picture", static_cast<uint64_t>(i)));
+    if (pictures == 1) return picture;
     for (size_t q = 0; q < sum.size(); ++q) {
-      if (i == 0) {
-        sum[q] = picture[q];
-      } else {
-        sum[q] += picture[q];
-      }
+      const cv::Mat share = picture[q] / pictures;
+      sum[q] = i == 0 ? share : cv::Mat(sum[q] + share);
     }
   }
+  return sum;
+}
+
+cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const QuarterImages& light) const {
   const double electrons_per_luminance =
       ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
       IlluminancePerLuminance(options_.lens);
-  return Gather(sum, {.centre_sigma_px = options_.lens.blur_sigma_px,
-                      .corner_sigma_px = options_.lens.corner_blur_sigma_px})
-      .mul(camera.illumination, electrons_per_luminance / pictures);
+  return Gather(light, {.centre_sigma_px = options_.lens.blur_sigma_px,
+                        .corner_sigma_px = options_.lens.corner_blur_sigma_px})
+      .mul(camera.illumination, electrons_per_luminance);
 }
 
-cv::Mat1b StereoRig::Develop(const Camera& camera, const cv::Mat1f& electrons_per_s,
-                             const ExposureSetting& exposure, const RandomStream& frame) const {
-  const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, frame);
-  // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
-  cv::Mat1b image;
-  dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));
-  return image;
+ExposureSetting StereoRig::ExposureFor(const cv::Mat1f& left_electrons_per_s) const {
+  return ChooseExposure(options_.exposure, options_.sensor, cv::mean(left_electrons_per_s)[0]);
+}
+
+StereoObservation StereoRig::Expose(const cv::Mat1f& left, const cv::Mat1f& right,
+                                    const ExposureSetting& exposure,
+                                    const RandomStream& shot) const {
+  const auto image_of = [&](const Camera& camera, const cv::Mat1f& electrons_per_s,
+                            const RandomStream& frame) {
+    const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, frame);
+    // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
+    cv::Mat1b image;
+    dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));
+    return image;
+  };
+  return {.left = image_of(*left_, left, shot.Child("left_noise")),
+          .right = image_of(*right_, right, shot.Child("right_noise"))};
+}
+
+StereoObservation StereoRig::Develop(const QuarterImages& left, const QuarterImages& right,
+                                     const RandomStream& shot) const {
+  const cv::Mat1f left_e_s = ElectronsPerSecond(*left_, left);
+  return Expose(left_e_s, ElectronsPerSecond(*right_, right), ExposureFor(left_e_s), shot);
 }
 
 StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& lighting,
                                      const Pose& X_WB, const RandomStream& shot) const {
   const RandomStream left_sampling = shot.Child("left_sampling");
+  const auto left_during = [&](double exposure_s) {
+    return ElectronsPerSecond(
+        *left_, Light(*left_, X_BL_, caster, lighting, X_WB, 0.0, exposure_s, left_sampling));
+  };
   // The exposure is chosen by a picture without motion blur, which has the same mean.
-  cv::Mat1f left =
-      ElectronsPerSecond(*left_, X_BL_, caster, lighting, X_WB, 0.0, 0.0, left_sampling);
-  const ExposureSetting exposure =
-      ChooseExposure(options_.exposure, options_.sensor, cv::mean(left)[0]);
-  const double time_s = exposure.exposure_s;
-  if (!options_.motion.still()) {
-    left = ElectronsPerSecond(*left_, X_BL_, caster, lighting, X_WB, 0.0, time_s, left_sampling);
-  }
-  const cv::Mat1f right =
-      ElectronsPerSecond(*right_, X_BR(), caster, lighting, X_WB, options_.trigger_skew_s, time_s,
-                         shot.Child("right_sampling"));
-  return {.left = Develop(*left_, left, exposure, shot.Child("left_noise")),
-          .right = Develop(*right_, right, exposure, shot.Child("right_noise"))};
+  cv::Mat1f left = left_during(0.0);
+  const ExposureSetting exposure = ExposureFor(left);
+  if (!options_.motion.still()) left = left_during(exposure.exposure_s);
+  const cv::Mat1f right = ElectronsPerSecond(
+      *right_, Light(*right_, X_BR(), caster, lighting, X_WB, options_.trigger_skew_s,
+                     exposure.exposure_s, shot.Child("right_sampling")));
+  return Expose(left, right, exposure, shot);
 }
 
 GroundTruth StereoRig::Truth(const Scene& scene, const Pose& X_WB) const {

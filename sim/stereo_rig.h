@@ -81,6 +81,9 @@ class StereoRig {
 
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const RandomStream& shot) const;
+  /// What optics and sensors make of luminance in the image plane, by quarters of pixels [cd/m²].
+  StereoObservation Develop(const QuarterImages& left, const QuarterImages& right,
+                            const RandomStream& shot) const;
   GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
   /// Of the left camera.
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
@@ -96,12 +99,16 @@ class StereoRig {
     ImageSensor sensor;
   };
 
-  /// Photo-electrons per pixel and second, averaged over an exposure around t.
-  cv::Mat1f ElectronsPerSecond(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
-                               const Lighting& lighting, const Pose& X_WB, double t_s,
-                               double exposure_s, const RandomStream& sampling) const;
-  cv::Mat1b Develop(const Camera& camera, const cv::Mat1f& electrons_per_s,
-                    const ExposureSetting& exposure, const RandomStream& frame) const;
+  /// Luminance on the sensor, averaged over an exposure around t.
+  QuarterImages Light(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
+                      const Lighting& lighting, const Pose& X_WB, double t_s, double exposure_s,
+                      const RandomStream& sampling) const;
+  /// Photo-electrons per pixel and second, of luminance.
+  cv::Mat1f ElectronsPerSecond(const Camera& camera, const QuarterImages& light) const;
+  ExposureSetting ExposureFor(const cv::Mat1f& left_electrons_per_s) const;
+  /// Of photo-electrons per pixel and second.
+  StereoObservation Expose(const cv::Mat1f& left, const cv::Mat1f& right,
+                           const ExposureSetting& exposure, const RandomStream& shot) const;
 
   StereoRigOptions options_;
   StereoCalibration cameras_;

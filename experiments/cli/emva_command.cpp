@@ -71,7 +71,8 @@ void Emva(const EmvaArguments& arguments) {
   emva::WriteSeries(arguments.folder, series,
                     emva::Simulate(simulation, sensor, RandomStream(arguments.seed)));
   // What was written is what is measured.
-  WriteResults(arguments.folder, emva::Evaluate(series, emva::FilesBeside(descriptor, series)),
+  const emva::Series written = emva::ReadDescriptor(descriptor);
+  WriteResults(arguments.folder, emva::Evaluate(written, emva::FilesBeside(descriptor, written)),
                emva::PutInBy(simulation, sensor));
 }
 

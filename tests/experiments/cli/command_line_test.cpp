@@ -2,12 +2,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/experiments/cli/program.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {
@@ -19,21 +18,6 @@ using ::testing::Not;
 using testing::ReadFile;
 using testing::TemporaryFolder;
 
-struct Outcome {
-  int exit_code;
-  std::string text;  ///< Standard output and standard error.
-};
-
-Outcome Fenestra(const std::string& arguments) {
-  const std::string command = std::string(FENESTRA_PROGRAM) + " " + arguments + " 2>&1 </dev/null";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string text;
-  char buffer[4096];
-  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
-}
-
 constexpr const char* kStudy =
     "name: tiny\n"
     "repetitions: 1\n"
@@ -42,8 +26,9 @@ constexpr const char* kStudy =
     "  distance_m: [1.4]\n";
 
 TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
-  for (const char* command : {"", "run", "render", "replay", "detect", "detect stereo",
-                              "detect rgbd", "list", "export"}) {
+  for (const char* command :
+       {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd", "list", "export",
+        "calibrate", "calibrate stereo", "emva"}) {
     const Outcome outcome = Fenestra(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;

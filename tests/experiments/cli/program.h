@@ -1,0 +1,26 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <string>
+
+namespace fenestra {
+
+struct Outcome {
+  int exit_code;
+  std::string text;  ///< Standard output and standard error.
+};
+
+/// The program in a process of its own, without input. Arguments are read by the shell.
+inline Outcome Fenestra(const std::string& arguments) {
+  const std::string command = std::string(FENESTRA_PROGRAM) + " " + arguments + " 2>&1 </dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string text;
+  char buffer[4096];
+  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+}
+
+}  // namespace fenestra
