@@ -3,43 +3,22 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include "core/input_error.h"
+#include "tests/vision/calibration/normalised_error.h"
 #include "tests/vision/calibration/synthetic_boards.h"
 
 namespace fenestra {
 namespace {
 
-using ::testing::HasSubstr;
 using testing::ExamplePair;
+using ::testing::HasSubstr;
 using testing::kExampleSizes;
+using testing::kFreeParameters;
+using testing::NormalisedSquaredError;
 using testing::SyntheticViews;
-
-// eᵀ Σ⁻¹ e over the free parameters: all but the two k3.
-constexpr int kFreeParameters = kPairParameters - 2;
-
-double NormalisedSquaredError(const PairVector& error, const PairMatrix& covariance) {
-  // Scaled to a unit diagonal, since the parameters' units differ by orders of magnitude; fixed
-  // parameters have neither error nor covariance.
-  const PairVector deviation = covariance.diagonal().cwiseSqrt();
-  Eigen::Matrix<double, kFreeParameters, 1> e;
-  Eigen::Matrix<double, kFreeParameters, kFreeParameters> correlation;
-  int row = 0;
-  for (int i = 0; i < kPairParameters; ++i) {
-    if (!(deviation[i] > 0.0)) continue;
-    e[row] = error[i] / deviation[i];
-    int column = 0;
-    for (int j = 0; j < kPairParameters; ++j) {
-      if (!(deviation[j] > 0.0)) continue;
-      correlation(row, column++) = covariance(i, j) / (deviation[i] * deviation[j]);
-    }
-    ++row;
-  }
-  return e.dot(correlation.ldlt().solve(e));
-}
 
 TEST(StereoCalibrationTest, CornersWithoutNoiseGiveThePairBack) {
   const StereoCalibration truth = ExamplePair();

@@ -55,11 +55,10 @@ std::vector<NamedView> SyntheticViews(const StereoCalibration& pair, const Calib
         RotationFromVector({0.0, 0.0, between(5, -0.2, 0.2)});
     const Eigen::Vector3d p_GCentre(0.5 * board.width_m(), 0.5 * board.height_m(), 0.0);
     const Pose X_LG(R_LG, p_LCentre - R_LG * p_GCentre);
-    views.push_back(
-        {.name = std::to_string(i),
-         .corners = {CornersIn(pair.left, X_LG, board, noise_px, view.Child("left")),
-                     CornersIn(pair.right, pair.X_RL * X_LG, board, noise_px,
-                               view.Child("right"))}});
+    views.push_back({.name = std::to_string(i),
+                     .corners = {CornersIn(pair.left, X_LG, board, noise_px, view.Child("left")),
+                                 CornersIn(pair.right, pair.X_RL * X_LG, board, noise_px,
+                                           view.Child("right"))}});
   }
   return views;
 }
