@@ -1,10 +1,17 @@
 #!/usr/bin/env bash
-# Makes the pictures of the README from those of two runs:
-#     ./run && ./run run gallery && docs/make_images.sh [results]
+# Makes the pictures of the README and of docs/*.md from those of these runs:
+#     ./run && ./run run gallery && ./run emva results/emva
+#     pairs=tests/data/stereo-calibration
+#     ./run calibrate stereo --left "$pairs/left*.jpg" --right "$pairs/right*.jpg" --corners 9x6 \
+#       --square-mm 30 --out results/rig
+#     docs/make_images.sh [results]
 # Needs ImageMagick (apt-get install imagemagick).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=${1:-results}
+
+convert "$results/emva/photon_transfer.png" -colors 64 docs/images/photon_transfer.png
+convert "$results/rig/residuals.png" -colors 64 docs/images/residuals.png
 
 pictures=$results/paper/pictures
 stereo=("$pictures"/cell_*_stereo_stereo/paper-stereo)
