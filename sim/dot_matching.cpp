@@ -1,77 +1,65 @@
 #include "sim/dot_matching.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
+
+#include "core/input_error.h"
 
 namespace fenestra {
 namespace {
 
-// Landau's dot signal was fitted on a white wall.
-constexpr double kReferenceReflectance = 0.8;
 // 11 % of the area are dots: nine in a window of 9 x 9 (measured on the Kinect's pattern).
 constexpr double kDotsPerWindow = 9.0;
 
-// Microsoft Kinect SDK 1.8.
-struct Range {
-  double nearest_m;
-  double farthest_m;
-};
-constexpr Range kDefaultRange{0.8, 4.0};
-constexpr Range kNearRange{0.4, 3.0};
-
 }  // namespace
 
-DotMatching::DotMatching(const StructuredLightOptions& options, const CameraModel& depth)
-    : options_(options),
-      nearest_m_((options.near_mode ? kNearRange : kDefaultRange).nearest_m),
-      farthest_m_((options.near_mode ? kNearRange : kDefaultRange).farthest_m),
-      disparity_times_z_(options.projector_baseline_m * depth.parameters().fx_px * kImageWidth /
-                         depth.width_px()) {}
+void Validate(const ParametricMatchingOptions& o) {
+  std::vector<InputFault> faults;
+  const auto demand = [&faults](bool holds, std::string message) {
+    if (!holds) faults.push_back({"structured-light sensor", 0, 0, std::move(message)});
+  };
+  demand(o.disparity_noise_px >= 0.0 && o.lateral_noise_px >= 0.0,
+         "disparity noise and lateral noise must not be negative");
+  demand(o.window_px >= 1 && o.window_px <= 31,
+         fmt::format("matching window {} px is not between 1 and 31", o.window_px));
+  demand(o.grazing_limit_rad > 0.0 && o.grazing_limit_rad <= 1.5707,
+         "the grazing limit must lie between 0 and 90 degrees");
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+DotMatching::DotMatching(const ParametricMatchingOptions& options, const InfraredOptions& infrared,
+                         const DisparityRange& range)
+    : options_(options), infrared_(infrared), range_(range) {}
 
 DepthReading DotMatching::Read(const LitSurface& surface, const Eigen::Vector3d& ray,
                                double evidence_noise, double disparity_noise) const {
   if (!std::isfinite(surface.z_m)) return {NoReturn::kNoSurface};
-  if (surface.z_m < nearest_m_ || surface.z_m > farthest_m_) return {NoReturn::kRange};
+  if (!range_.Contains(surface.z_m)) return {NoReturn::kRange};
   if (!surface.sees_projector) return {NoReturn::kShadow};
-
-  const Eigen::Vector3d p_CQ = surface.z_m * ray;
-  const Eigen::Vector3d to_projector =
-      Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0) - p_CQ;
-  const double cos_camera = -surface.normal_C.dot(p_CQ.normalized());
-  const double cos_projector = surface.normal_C.dot(to_projector.normalized());
-  if (std::min(cos_camera, cos_projector) < std::cos(options_.grazing_limit_rad)) {
+  const double cos_camera = -surface.normal_C.dot(ray.normalized());
+  if (std::min(cos_camera, surface.light.cos_projector) < std::cos(options_.grazing_limit_rad)) {
     return {NoReturn::kGrazing};
   }
-  const NoReturn evidence =
-      Evidence(surface, cos_projector, to_projector.squaredNorm(), evidence_noise);
+  const NoReturn evidence = Evidence(surface.light, evidence_noise);
   if (evidence != NoReturn::kNone) return {evidence};
-
-  const double disparity_px =
-      disparity_times_z_ / surface.z_m + options_.disparity_noise_px * disparity_noise;
-  const double step_px = options_.disparity_step_px;
-  const double quantised_px =
-      step_px > 0.0 ? step_px * std::round(disparity_px / step_px) : disparity_px;
-  const double z_m = disparity_times_z_ / quantised_px;
-  if (!(z_m >= nearest_m_ && z_m <= farthest_m_)) return {NoReturn::kRange};
+  const double z_m = range_.Depth(range_.focal_times_baseline / surface.z_m +
+                                  options_.disparity_noise_px * disparity_noise);
+  if (z_m == 0.0) return {NoReturn::kRange};
   return {NoReturn::kNone, z_m};
 }
 
-NoReturn DotMatching::Evidence(const LitSurface& surface, double cos_projector,
-                               double squared_distance_m2, double noise) const {
-  const StructuredLightOptions& o = options_;
-  const double reflected_dn = o.dot_signal_dn * surface.reflectance_830nm / kReferenceReflectance;
-  const double T = surface.transmittance;
-  // The pattern passes a pane of glass twice; the irradiance is on the surface, behind the pane.
-  const double dot_dn = reflected_dn * cos_projector / squared_distance_m2 * T * T;
-  const double ambient_dn =
-      reflected_dn * T * (surface.irradiance_830 * o.filter_width_nm / o.dot_irradiance);
-  if (ambient_dn >= o.saturation_dn) return NoReturn::kSaturated;
+NoReturn DotMatching::Evidence(const InfraredLight& light, double noise) const {
+  const InfraredOptions& o = infrared_;
+  if (light.ambient_dn >= o.saturation_dn) return NoReturn::kSaturated;
   // A dot may saturate; what counts is how far it stands out of its surroundings.
-  const double contrast_dn = std::min(dot_dn, o.saturation_dn - ambient_dn);
-  const double noise_dn =
-      std::sqrt(o.dark_noise_dn * o.dark_noise_dn + o.shot_noise_dn * (contrast_dn + ambient_dn));
+  const double contrast_dn = std::min(light.dot_dn, o.saturation_dn - light.ambient_dn);
+  const double noise_dn = std::sqrt(o.dark_noise_dn * o.dark_noise_dn +
+                                    o.shot_noise_dn * (contrast_dn + light.ambient_dn));
   const double window_snr = std::sqrt(kDotsPerWindow) * contrast_dn / noise_dn;
-  return window_snr + noise < o.matching_snr ? NoReturn::kDark : NoReturn::kNone;
+  return window_snr + noise < options_.least_snr ? NoReturn::kDark : NoReturn::kNone;
 }
 
 }  // namespace fenestra

@@ -30,6 +30,19 @@ Pose DepthToColor(const StructuredLightOptions& o) {
   return Pose::Translation({-o.color_offset_m, 0.0, 0.0});
 }
 
+DisparityRange RangeOf(const StructuredLightOptions& o) {
+  return DisparityRange::Of(o.depth_focal_px, o.depth_width_px, o.projector_baseline_m,
+                            o.disparity_step_px, o.near_mode);
+}
+
+std::shared_ptr<const SpeckleDepth> MakeSpeckleDepth(const StructuredLightOptions& o,
+                                                     const CameraModel& depth) {
+  if (o.depth_model != DepthModel::kSpeckle) return nullptr;
+  return std::make_shared<const SpeckleDepth>(o.infrared, o.speckle, depth,
+                                              o.infrared_width_px / o.depth_width_px,
+                                              o.projector_baseline_m, RangeOf(o));
+}
+
 cv::Mat1f Normals(const RandomStream& stream, cv::Size size) {
   cv::Mat1f values(size);
   stream.FillNormals({values.ptr<float>(), values.total()});
@@ -55,19 +68,21 @@ void Validate(const StructuredLightOptions& o) {
     if (!holds) faults.push_back({"structured-light sensor", 0, 0, std::move(message)});
   };
   demand(o.projector_baseline_m > 0.0, "the projector's baseline must be positive");
-  demand(o.disparity_step_px >= 0.0 && o.disparity_noise_px >= 0.0 && o.lateral_noise_px >= 0.0,
-         "disparity step, disparity noise and lateral noise must not be negative");
-  demand(o.matching_window_px >= 1 && o.matching_window_px <= 31,
-         fmt::format("matching window {} px is not between 1 and 31", o.matching_window_px));
-  demand(o.grazing_limit_rad > 0.0 && o.grazing_limit_rad <= 1.5707,
-         "the grazing limit must lie between 0 and 90 degrees");
-  demand(o.dot_irradiance > 0.0, "the dots' irradiance must be positive");
+  demand(o.disparity_step_px >= 0.0, "the disparity step must not be negative");
+  demand(o.averaged_frames >= 1 && o.averaged_frames <= 1000,
+         fmt::format("{} averaged frames are not between 1 and 1000", o.averaged_frames));
+  demand(o.depth_model != DepthModel::kSpeckle || o.infrared_width_px % o.depth_width_px == 0,
+         fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
+                     o.infrared_width_px, o.depth_width_px));
   demand(o.color_lens.corner_blur_sigma_px >= o.color_lens.blur_sigma_px,
          fmt::format("colour blur {} px in the corners is less than {} px in the centre",
                      o.color_lens.corner_blur_sigma_px, o.color_lens.blur_sigma_px));
   demand(o.color_mean_dn > 0.0 && o.color_mean_dn < 255.0,
          "the colour image's mean must lie between 0 and 255");
   if (!faults.empty()) throw InputError(std::move(faults));
+  Validate(o.infrared);
+  Validate(o.parametric);
+  Validate(o.speckle);
 }
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
@@ -77,6 +92,7 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
                .X_KD = DepthToColor(options)},
       depth_rays_(nominal_.depth),
       color_rays_(nominal_.color),
+      speckle_depth_(MakeSpeckleDepth(options, nominal_.depth)),
       color_illumination_(RelativeIllumination(color_rays_, options.color_lens)),
       // One fixed pattern: all sensors of a study are the same unit.
       color_sensor_(options.color_sensor, {options.color_width_px, options.color_height_px},
@@ -88,27 +104,60 @@ RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Li
           .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
 }
 
-StructuredLightSensor::DepthFrame StructuredLightSensor::ObserveDepth(
-    const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-    const RandomStream& shot) const {
+DepthFrame StructuredLightSensor::ObserveDepth(const RayCaster& caster, const Lighting& lighting,
+                                               const Pose& X_WB, const RandomStream& shot) const {
+  DepthFrame first = OneDepthFrame(caster, lighting, X_WB, shot, shot);
+  if (options_.averaged_frames == 1) return first;
+  cv::Mat1d sum;
+  first.depth.raw.convertTo(sum, CV_64F);
+  cv::Mat1d returns = cv::Mat1d::zeros(sum.size());
+  returns.setTo(1.0, first.depth.raw != 0);
+  for (int i = 1; i < options_.averaged_frames; ++i) {
+    const DepthFrame next =
+        OneDepthFrame(caster, lighting, X_WB, shot, shot.Child("frame", static_cast<uint64_t>(i)));
+    cv::add(sum, next.depth.raw, sum, cv::noArray(), CV_64F);
+    cv::add(returns, 1.0, returns, next.depth.raw != 0);
+    // The reason is the first one that was given.
+    next.no_return.copyTo(first.no_return, first.no_return == 0);
+  }
+  const cv::Mat1b counts = returns >= 0.5 * options_.averaged_frames;
+  first.depth.raw.setTo(0);
+  cv::Mat1w(cv::Mat(sum / returns)).copyTo(first.depth.raw, counts);
+  first.no_return.setTo(0, counts);
+  return first;
+}
+
+DepthFrame StructuredLightSensor::OneDepthFrame(const RayCaster& caster, const Lighting& lighting,
+                                                const Pose& X_WB, const RandomStream& shot,
+                                                const RandomStream& frame) const {
+  if (speckle_depth_) {
+    return speckle_depth_->Observe(caster, lighting, X_WB, nominal_.depth_unit_m, shot, frame);
+  }
+  return ParametricFrame(caster, lighting, X_WB, frame);
+}
+
+DepthFrame StructuredLightSensor::ParametricFrame(const RayCaster& caster, const Lighting& lighting,
+                                                  const Pose& X_WB,
+                                                  const RandomStream& frame_stream) const {
   const cv::Size size(nominal_.depth.width_px(), nominal_.depth.height_px());
-  const double matching_scale = size.width / DotMatching::kImageWidth;
+  const double matching_scale = size.width / DisparityRange::kImageWidth;
 
   // Lateral noise: the window's centre of evidence is not the pixel's centre.
   AovOptions aov_options{.offsets_px = cv::Mat2f(size),
                          .p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0)};
-  const std::array<cv::Mat1f, 2> jitter = {Normals(shot.Child("lateral_u"), size),
-                                           Normals(shot.Child("lateral_v"), size)};
+  const std::array<cv::Mat1f, 2> jitter = {Normals(frame_stream.Child("lateral_u"), size),
+                                           Normals(frame_stream.Child("lateral_v"), size)};
   cv::merge(jitter.data(), 2, aov_options.offsets_px);
-  aov_options.offsets_px *= options_.lateral_noise_px * matching_scale;
+  aov_options.offsets_px *= options_.parametric.lateral_noise_px * matching_scale;
   const AovImages aovs = caster.CastAovs(depth_rays_, X_WB, lighting, aov_options);
 
   const int window_px =
-      std::max(1, static_cast<int>(std::lround(options_.matching_window_px * matching_scale)));
-  const cv::Mat1f disparity_noise = WindowNoise(shot.Child("disparity"), size, window_px);
-  const cv::Mat1f evidence_noise = WindowNoise(shot.Child("evidence"), size, window_px);
+      std::max(1, static_cast<int>(std::lround(options_.parametric.window_px * matching_scale)));
+  const cv::Mat1f disparity_noise = WindowNoise(frame_stream.Child("disparity"), size, window_px);
+  const cv::Mat1f evidence_noise = WindowNoise(frame_stream.Child("evidence"), size, window_px);
 
-  const DotMatching matching(options_, nominal_.depth);
+  const Eigen::Vector3d p_DP(options_.projector_baseline_m, 0.0, 0.0);
+  const DotMatching matching(options_.parametric, options_.infrared, RangeOf(options_));
   DepthFrame frame{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = nominal_.depth_unit_m},
                    .no_return = cv::Mat1b::zeros(size)};
   for (int v = 0; v < size.height; ++v) {
@@ -116,12 +165,11 @@ StructuredLightSensor::DepthFrame StructuredLightSensor::ObserveDepth(
       const cv::Vec2f offset = aov_options.offsets_px(v, u);
       const auto ray = nominal_.depth.UnprojectRay({u + offset[0], v + offset[1]});
       const cv::Vec3f& n = aovs.normal_C(v, u);
-      const LitSurface surface{.z_m = aovs.depth_m(v, u),
-                               .normal_C = {n[0], n[1], n[2]},
-                               .sees_projector = aovs.sees_point(v, u) != 0,
-                               .transmittance = aovs.transmittance(v, u),
-                               .reflectance_830nm = aovs.reflectance_830nm(v, u),
-                               .irradiance_830 = aovs.irradiance_830(v, u)};
+      const LitSurface surface{
+          .z_m = aovs.depth_m(v, u),
+          .normal_C = {n[0], n[1], n[2]},
+          .sees_projector = aovs.sees_point(v, u) != 0,
+          .light = InfraredLightAt(options_.infrared, aovs, {u, v}, *ray, p_DP)};
       const DepthReading reading =
           matching.Read(surface, *ray, evidence_noise(v, u), disparity_noise(v, u));
       frame.no_return(v, u) = static_cast<unsigned char>(reading.no_return);

@@ -1,18 +1,28 @@
 #pragma once
 
 #include <array>
-#include <numbers>
+#include <memory>
 
 #include "core/calibration.h"
 #include "core/observation.h"
 #include "core/random_stream.h"
 #include "renderers/ray_caster.h"
+#include "sim/depth_frame.h"
+#include "sim/dot_matching.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"
+#include "sim/infrared_image.h"
 #include "sim/lens.h"
+#include "sim/speckle_depth.h"
 #include "sim/truth_images.h"
 
 namespace fenestra {
+
+/// How depth comes about.
+enum class DepthModel {
+  kParametric,  ///< Truth, noise and holes by formulae; see DotMatching. Fast.
+  kSpeckle,     ///< An infra-red image of the dots, searched for the pattern; see SpeckleDepth.
+};
 
 /// A Kinect-like sensor: colour camera, infra-red depth camera, and a projector of dots.
 /// Figures: Microsoft Kinect SDK 1.8 constants, ROS kinect_calibration/technical, Khoshelham &
@@ -29,30 +39,20 @@ struct StructuredLightOptions {
 
   bool near_mode = false;  ///< 0.4–3.0 m instead of 0.8–4.0 m (MS SDK).
 
-  /// Disparity step and noise, in pixels of the 640-wide image in which the sensor matches.
-  double disparity_step_px = 0.125;  ///< 1/8 px (ROS kinect_calibration/technical).
-  /// Before quantisation. Khoshelham's σ_z = 1.425e-3 z² is 0.061 px at f b = 42.8 px m and
-  /// includes the step's 0.125/√12 = 0.036 px: √(0.061² − 0.036²) = 0.049.
-  double disparity_noise_px = 0.049;
-  /// Side of the window that is matched (ROS kinect_calibration/technical: 9 x 9 or 9 x 7): pixels
-  /// that share a window share its noise.
-  int matching_window_px = 9;
-  /// Lateral jitter of each depth pixel, in the same pixels (Barron & Handa, simkinect: 0.5).
-  double lateral_noise_px = 0.5;
-
-  /// Signal of a dot on a surface of reflectance 0.8 at 1 m [10-bit DN] (Landau 2015: 5.90e8/r²).
-  double dot_signal_dn = 590.0;
-  double dark_noise_dn = 10.4;    ///< Standard deviation of the infra-red image (Landau 2015).
-  double shot_noise_dn = 0.5;     ///< Variance per DN of signal (Landau 2015: gamma noise).
-  double saturation_dn = 1023.0;  ///< 10 bits.
-  /// A 9 x 9 window holds 9 dots: its evidence is √9 times a dot's. Matched when it exceeds this.
-  double matching_snr = 3.5;
-  double grazing_limit_rad =
-      75.0 * std::numbers::pi / 180.0;  ///< Between the 70° and 80° that users report.
-  /// Peak irradiance of a dot at 1 m [W/m²]: 60 mW spread over the field of view, 11 % of it dots.
-  double dot_irradiance = 0.574;
-  /// Full width of the infra-red filter [nm]: how much ambient light competes with the dots.
-  double filter_width_nm = 10.0;
+  DepthModel depth_model = DepthModel::kParametric;
+  InfraredOptions infrared;
+  ParametricMatchingOptions parametric;
+  SpeckleMatchingOptions speckle;
+  /// Width of the infra-red image in which kSpeckle matches: a multiple of the depth image's. Depth
+  /// pixels are those of every so many columns and rows.
+  int infrared_width_px = 640;
+  /// Quantum of the disparity, in pixels of a 640-wide image: 1/8 px (ROS
+  /// kinect_calibration/technical) in OpenNI's drivers; 1/16 px, by the levels of its depth table,
+  /// in the Microsoft SDK's. 0: none.
+  double disparity_step_px = 0.125;
+  /// Depth images at 30 Hz that are averaged, each with its own noise: the mean of the returns of
+  /// pixels with a return in at least half of them.
+  int averaged_frames = 1;
 
   LensOptions color_lens{.f_number = 2.0,
                          .transmission = 0.9,
@@ -82,18 +82,7 @@ struct StructuredLightOptions {
 /// Throws InputError with all faults.
 void Validate(const StructuredLightOptions& options);
 
-/// Why a depth pixel has no return; for truth only, detectors never see it.
-enum class NoReturn : unsigned char {
-  kNone = 0,  ///< There is a return.
-  kNoSurface,
-  kRange,
-  kShadow,
-  kGrazing,
-  kDark,       ///< The dots do not stand out of the noise, of ambient light among others.
-  kSaturated,  ///< Ambient light alone saturates the infra-red image.
-};
-
-/// The parametric structured-light sensor. Frame B is the depth camera D.
+/// A structured-light sensor. Frame B is the depth camera D.
 class StructuredLightSensor {
  public:
   explicit StructuredLightSensor(const StructuredLightOptions& options);
@@ -108,14 +97,14 @@ class StructuredLightSensor {
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
   /// The depth image with its reasons; Observe's depth is the same.
-  struct DepthFrame {
-    DepthImage depth;
-    cv::Mat1b no_return;  ///< NoReturn.
-  };
   DepthFrame ObserveDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                           const RandomStream& shot) const;
 
  private:
+  DepthFrame OneDepthFrame(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                           const RandomStream& shot, const RandomStream& frame) const;
+  DepthFrame ParametricFrame(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                             const RandomStream& frame) const;
   cv::Mat3b ObserveColor(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                          const RandomStream& shot) const;
   /// Fixed, or such that the encoded image's mean is color_mean_dn; B, G, R in electrons per
@@ -128,6 +117,7 @@ class StructuredLightSensor {
   RgbdCalibration nominal_;
   RayGrid depth_rays_;
   RayGrid color_rays_;
+  std::shared_ptr<const SpeckleDepth> speckle_depth_;  ///< With kSpeckle only.
   cv::Mat1f color_illumination_;
   ImageSensor color_sensor_;
 };

@@ -209,7 +209,9 @@ void MeasureTransfer(Results& r) {
     mean.push_back(p.dark_mean);
     variance.push_back(p.dark_variance);
   }
-  const double dark_variance = std::max(FitLine(exposure, variance).offset, kLeastDarkVariance);
+  const double measured_variance = FitLine(exposure, variance).offset;
+  const double dark_variance = std::max(measured_variance, kLeastDarkVariance);
+  r.dark_noise_is_floor = measured_variance < kLeastDarkVariance;
   r.dark_noise_e = std::sqrt(dark_variance - kQuantisationVariance) / r.gain_dn_per_e;
   r.dark_current_e_s = FitLine(exposure, mean).slope / r.gain_dn_per_e;
   r.threshold_photons = (std::sqrt(dark_variance) / r.gain_dn_per_e + 0.5) / r.quantum_efficiency;

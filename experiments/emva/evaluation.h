@@ -36,6 +36,7 @@ struct Results {
   double responsivity;         ///< R [DN per photon]
   double quantum_efficiency;   ///< η = R/K
   double dark_noise_e;         ///< σ_d
+  bool dark_noise_is_floor;    ///< σ_y.dark² came out below 0.24 DN²: σ_d may be less.
   double dark_current_e_s;     ///< μ_I by the mean; NaN for fewer than three exposures.
   double saturation_photons;   ///< μ_p.sat
   double saturation_e;         ///< μ_e.sat = η μ_p.sat

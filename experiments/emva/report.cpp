@@ -71,17 +71,24 @@ TextTable TableOf(const Results& results, const std::optional<PutIn>& put_in) {
   return table;
 }
 
+std::string NoteOf(const Results& results) {
+  if (!results.dark_noise_is_floor) return {};
+  return "\nThe dark variance is below 0.24 DN2: quantisation hides the dark noise, which may be "
+         "less\nthan the figure above. More bits or more gain would tell.\n";
+}
+
 }  // namespace
 
 std::string ReportText(const Results& results, const std::optional<PutIn>& put_in) {
-  return TableOf(results, put_in).ToPlainText();
+  return TableOf(results, put_in).ToPlainText() + NoteOf(results);
 }
 
 std::string ReportMarkdown(const Results& results, const std::optional<PutIn>& put_in) {
   return fmt::format(
-      "# EMVA 1288 figures\n\n{} exposures, K and R fitted over the first {}.\n\n{}\n"
+      "# EMVA 1288 figures\n\n{} exposures, K and R fitted over the first {}.\n\n{}{}\n"
       "![Photon transfer](photon_transfer.png)\n",
-      results.points.size(), results.last_fit_point + 1, TableOf(results, put_in).ToMarkdown());
+      results.points.size(), results.last_fit_point + 1, TableOf(results, put_in).ToMarkdown(),
+      NoteOf(results));
 }
 
 std::string ReportJson(const Results& results, const std::optional<PutIn>& put_in) {

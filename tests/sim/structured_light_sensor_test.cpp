@@ -13,8 +13,6 @@
 namespace fenestra {
 namespace {
 
-using DepthFrame = StructuredLightSensor::DepthFrame;
-
 constexpr double kFocalTimesBaseline = 0.075 * 285.63 * 2.0;  // [px m] at 640 x 480
 
 Scene WhiteWall() {
@@ -44,8 +42,8 @@ DepthFrame Seen(const StructuredLightOptions& options, const Scene& scene,
 
 StructuredLightOptions Noiseless() {
   StructuredLightOptions options;
-  options.disparity_noise_px = 0.0;
-  options.lateral_noise_px = 0.0;
+  options.parametric.disparity_noise_px = 0.0;
+  options.parametric.lateral_noise_px = 0.0;
   return options;
 }
 

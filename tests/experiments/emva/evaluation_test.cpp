@@ -182,6 +182,7 @@ TEST(EmvaEvaluationTest, AtEightBitsAndGainOneTheStandardsFloorHidesTheDarkNoise
   quiet.read_noise_e = 12.0;
   const Measured m = Measure(Small(), quiet, quiet);
   EXPECT_GT(m.DarkNoise(), kDarkNoise);
+  EXPECT_TRUE(m.results.dark_noise_is_floor);
 }
 
 TEST(EmvaEvaluationTest, ASeriesThatLacksSomethingIsRefusedWithTheReason) {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "core/observation.h"
+
+namespace fenestra {
+
+/// Why a depth pixel has no return; for truth only, detectors never see it.
+enum class NoReturn : unsigned char {
+  kNone = 0,  ///< There is a return.
+  kNoSurface,
+  kRange,
+  kShadow,
+  kGrazing,
+  kDark,       ///< The dots do not stand out of the noise, of ambient light among others.
+  kSaturated,  ///< Ambient light alone saturates the infra-red image.
+  kNoMatch,    ///< Dots can be seen, but the window is not recognised: it straddles an edge.
+  kBorder,     ///< The window leaves the infra-red image.
+};
+
+/// A depth image with its reasons.
+struct DepthFrame {
+  DepthImage depth;
+  cv::Mat1b no_return;  ///< NoReturn.
+};
+
+}  // namespace fenestra

@@ -1,0 +1,131 @@
+#include "sim/infrared_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/input_error.h"
+#include "sim/dot_pattern.h"
+
+namespace fenestra {
+namespace {
+
+// Landau's dot signal was fitted on a white wall.
+constexpr double kReferenceReflectance = 0.8;
+
+// The mean over a pixel, `offset` from a dot's centre, of a Gaussian of unit sum along one axis.
+double MeanOverPixel(double offset, double sigma_px) {
+  const double scale = 1.0 / (sigma_px * std::numbers::sqrt2);
+  return 0.5 * (std::erf((offset + 0.5) * scale) - std::erf((offset - 0.5) * scale));
+}
+
+std::vector<float> Normals(const RandomStream& stream, size_t count) {
+  std::vector<float> values(count);
+  stream.FillNormals(values);
+  return values;
+}
+
+}  // namespace
+
+void Validate(const InfraredOptions& o) {
+  std::vector<InputFault> faults;
+  const auto demand = [&faults](bool holds, const char* message) {
+    if (!holds) faults.push_back({"infra-red image", 0, 0, message});
+  };
+  demand(o.dot_irradiance > 0.0, "the dots' irradiance must be positive");
+  demand(o.dot_sigma_px >= 0.1 && o.dot_sigma_px <= 1.0, "dots must spread over 0.1 to 1 px");
+  demand(o.dark_noise_dn >= 0.0 && o.shot_noise_dn >= 0.0 && o.speckle_contrast >= 0.0,
+         "noise must not be negative");
+  demand(o.saturation_dn >= 1.0 && o.saturation_dn <= 1023.0,
+         "saturation must lie between 1 and 1023 DN, of 10 bits");
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+GatheredPattern::GatheredPattern(double dot_sigma_px) {
+  const double peak = MeanOverPixel(0.0, dot_sigma_px);
+  for (size_t i = 0; i < spread_.size(); ++i) {
+    const double offset = static_cast<double>(i) / kStepsPerCell - (kReach + 1);
+    spread_[i] = static_cast<float>(MeanOverPixel(offset, dot_sigma_px) / peak);
+  }
+  static const DotPattern pattern;
+  gathered_ = cv::Mat1f::zeros(DotPattern::kTileHeight, DotPattern::kTileWidth + 2 * kReach + 1);
+  for (int row = 0; row < gathered_.rows; ++row) {
+    for (int column = 0; column < gathered_.cols; ++column) {
+      for (int j = -kReach; j <= kReach; ++j) {
+        if (pattern.HasDot(column, row + j)) gathered_(row, column) += SpreadAt(j);
+      }
+    }
+  }
+}
+
+float GatheredPattern::SpreadAt(double offset) const {
+  return spread_[static_cast<size_t>(std::lround((offset + (kReach + 1)) * kStepsPerCell))];
+}
+
+float GatheredPattern::At(double column, int row) const {
+  const auto nearest = static_cast<int>(std::floor(column + 0.5));
+  const double offset = column - nearest;
+  int first = (nearest - kReach) % DotPattern::kTileWidth;
+  if (first < 0) first += DotPattern::kTileWidth;
+  int tile_row = row % DotPattern::kTileHeight;
+  if (tile_row < 0) tile_row += DotPattern::kTileHeight;
+  const float* cells = gathered_[tile_row] + first;
+  float sum = 0.0f;
+  for (int i = 0; i <= 2 * kReach; ++i) sum += SpreadAt(offset - (i - kReach)) * cells[i];
+  return sum;
+}
+
+InfraredLight InfraredLightAt(const InfraredOptions& o, const AovImages& aovs, cv::Point pixel,
+                              const Eigen::Vector3d& ray, const Eigen::Vector3d& p_CP) {
+  const double z_m = aovs.depth_m(pixel);
+  if (!std::isfinite(z_m)) return {};
+  const double reflected_dn =
+      o.dot_signal_dn * aovs.reflectance_830nm(pixel) / kReferenceReflectance;
+  const double T = aovs.transmittance(pixel);
+  // The pattern passes a pane of glass twice; the irradiance is on the surface, behind the pane.
+  InfraredLight light{.dot_dn = 0.0,
+                      .ambient_dn = reflected_dn * T * aovs.irradiance_830(pixel) *
+                                    o.filter_width_nm / o.dot_irradiance,
+                      .cos_projector = 0.0};
+  if (aovs.sees_point(pixel) != 0) {
+    const Eigen::Vector3d to_projector = p_CP - z_m * ray;
+    const cv::Vec3f& n = aovs.normal_C(pixel);
+    const double distance2 = to_projector.squaredNorm();
+    light.cos_projector =
+        std::max(0.0, Eigen::Vector3d(n[0], n[1], n[2]).dot(to_projector) / std::sqrt(distance2));
+    light.dot_dn = reflected_dn * light.cos_projector / distance2 * T * T;
+  }
+  return light;
+}
+
+cv::Mat1w InfraredImage(const InfraredOptions& o, const GatheredPattern& pattern,
+                        const InfraredView& view, const RandomStream& surface,
+                        const RandomStream& frame) {
+  const cv::Size size = view.aovs.depth_m.size();
+  const auto count = static_cast<size_t>(size.area());
+  const std::vector<float> speckle = Normals(surface, count);
+  const std::vector<float> noise = Normals(frame, count);
+  const CameraParameters& k = view.camera.parameters();
+  const Eigen::Vector3d p_CP(view.baseline_m, 0.0, 0.0);
+  cv::Mat1w image(size);
+  size_t i = 0;
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u, ++i) {
+      const Eigen::Vector3d ray((u - k.cx_px) / k.fx_px, (v - k.cy_px) / k.fy_px, 1.0);
+      const InfraredLight light = InfraredLightAt(o, view.aovs, {u, v}, ray, p_CP);
+      double dn = light.ambient_dn;
+      if (light.dot_dn > 0.0) {
+        const double disparity_px = k.fx_px * view.baseline_m / view.aovs.depth_m(v, u);
+        dn += light.dot_dn * static_cast<double>(pattern.At(u - disparity_px, v)) *
+              std::max(0.0, 1.0 + o.speckle_contrast * static_cast<double>(speckle[i]));
+      }
+      const double deviation = std::sqrt(o.dark_noise_dn * o.dark_noise_dn + o.shot_noise_dn * dn);
+      dn += deviation * static_cast<double>(noise[i]);
+      image(v, u) = static_cast<uint16_t>(std::lround(std::clamp(dn, 0.0, o.saturation_dn)));
+    }
+  }
+  return image;
+}
+
+}  // namespace fenestra

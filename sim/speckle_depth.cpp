@@ -1,0 +1,114 @@
+#include "sim/speckle_depth.h"
+
+#include <cmath>
+
+namespace fenestra {
+namespace {
+
+// The infra-red camera: each of its pixels `scale` u, v has the ray of the depth pixel u, v.
+CameraModel InfraredCamera(const CameraModel& depth, int scale) {
+  CameraParameters parameters = depth.parameters();
+  parameters.width_px *= scale;
+  parameters.height_px *= scale;
+  parameters.fx_px *= scale;
+  parameters.fy_px *= scale;
+  parameters.cx_px *= scale;
+  parameters.cy_px *= scale;
+  return CameraModel(parameters);
+}
+
+// Disparities in the infra-red image [px], with room for noise and for the parabola's neighbours.
+constexpr double kRoom_px = 2.0;
+
+double Disparity(const DisparityRange& range, const CameraModel& infrared, double z_m) {
+  return range.focal_times_baseline / z_m * infrared.width_px() / DisparityRange::kImageWidth;
+}
+
+}  // namespace
+
+SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
+                           const CameraModel& depth, int scale, double baseline_m,
+                           const DisparityRange& range)
+    : infrared_((Validate(infrared), infrared)),
+      matching_(matching),
+      range_(range),
+      baseline_m_(baseline_m),
+      scale_(scale),
+      depth_size_(depth.width_px(), depth.height_px()),
+      rays_(InfraredCamera(depth, scale)),
+      pattern_(infrared.dot_sigma_px),
+      matcher_(matching, pattern_, {rays_.width_px(), rays_.height_px()},
+               std::max(0.0, Disparity(range, rays_.camera(), range.farthest_m) - kRoom_px),
+               Disparity(range, rays_.camera(), range.nearest_m) + kRoom_px) {}
+
+AovImages SpeckleDepth::CastAovs(const RayCaster& caster, const Lighting& lighting,
+                                 const Pose& X_WB) const {
+  return caster.CastAovs(rays_, X_WB, lighting,
+                         {.offsets_px = {}, .p_WP = X_WB * Eigen::Vector3d(baseline_m_, 0.0, 0.0)});
+}
+
+cv::Mat1w SpeckleDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
+                                        const Pose& X_WB, const RandomStream& shot,
+                                        const RandomStream& frame) const {
+  const AovImages aovs = CastAovs(caster, lighting, X_WB);
+  return InfraredImage(infrared_, pattern_,
+                       {.aovs = aovs, .camera = rays_.camera(), .baseline_m = baseline_m_},
+                       shot.Child("laser_speckle"), frame.Child("infrared_noise"));
+}
+
+DepthFrame SpeckleDepth::Observe(const RayCaster& caster, const Lighting& lighting,
+                                 const Pose& X_WB, double unit_m, const RandomStream& shot,
+                                 const RandomStream& frame) const {
+  const AovImages aovs = CastAovs(caster, lighting, X_WB);
+  const cv::Mat1w infrared = InfraredImage(
+      infrared_, pattern_, {.aovs = aovs, .camera = rays_.camera(), .baseline_m = baseline_m_},
+      shot.Child("laser_speckle"), frame.Child("infrared_noise"));
+  const SpeckleMatches matches = matcher_.Match(infrared);
+  const double to_640 = DisparityRange::kImageWidth / rays_.width_px();
+  DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
+                    .no_return = cv::Mat1b::zeros(depth_size_)};
+  for (int v = 0; v < depth_size_.height; ++v) {
+    for (int u = 0; u < depth_size_.width; ++u) {
+      const cv::Point pixel(scale_ * u, scale_ * v);
+      NoReturn reason = Reason(aovs, pixel, matches);
+      if (reason == NoReturn::kNone) {
+        const double z_m = range_.Depth(static_cast<double>(matches.disparity_px(pixel)) * to_640);
+        if (z_m == 0.0) reason = NoReturn::kRange;
+        result.depth.raw(v, u) = static_cast<uint16_t>(std::lround(z_m / unit_m));
+      }
+      result.no_return(v, u) = static_cast<unsigned char>(reason);
+    }
+  }
+  return result;
+}
+
+NoReturn SpeckleDepth::Reason(const AovImages& aovs, cv::Point pixel,
+                              const SpeckleMatches& matches) const {
+  // Windows that straddle an outline match beyond it; where nothing is, no depth shall stand.
+  if (!std::isfinite(aovs.depth_m(pixel))) return NoReturn::kNoSurface;
+  if (std::isfinite(matches.disparity_px(pixel))) return NoReturn::kNone;
+  if (matches.correlation(pixel) <= -1.0f) return NoReturn::kBorder;
+  if (!range_.Contains(aovs.depth_m(pixel))) return NoReturn::kRange;
+  if (aovs.sees_point(pixel) == 0) return NoReturn::kShadow;
+  const CameraParameters& k = rays_.camera().parameters();
+  const Eigen::Vector3d ray((pixel.x - k.cx_px) / k.fx_px, (pixel.y - k.cy_px) / k.fy_px, 1.0);
+  const InfraredLight light = InfraredLightAt(infrared_, aovs, pixel, ray, {baseline_m_, 0.0, 0.0});
+  if (light.ambient_dn >= infrared_.saturation_dn) return NoReturn::kSaturated;
+  // A window that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast,
+  // which is a third of a dot's peak.
+  constexpr double kContrast = 1.0 / 3.0;
+  const double noise_dn =
+      std::sqrt(infrared_.dark_noise_dn * infrared_.dark_noise_dn +
+                infrared_.shot_noise_dn * (light.ambient_dn + kContrast * light.dot_dn));
+  const double rho = matching_.least_correlation;
+  if (kContrast * light.dot_dn < noise_dn / std::sqrt(1.0 / (rho * rho) - 1.0)) {
+    return NoReturn::kDark;
+  }
+  constexpr double kGrazingCosine = 0.34;  // 70°: users report holes from 70° to 80°.
+  const cv::Vec3f& n = aovs.normal_C(pixel);
+  const double cos_camera = -Eigen::Vector3d(n[0], n[1], n[2]).dot(ray.normalized());
+  return std::min(cos_camera, light.cos_projector) < kGrazingCosine ? NoReturn::kGrazing
+                                                                    : NoReturn::kNoMatch;
+}
+
+}  // namespace fenestra

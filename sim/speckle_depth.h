@@ -1,0 +1,44 @@
+#pragma once
+
+#include "core/camera_model.h"
+#include "sim/depth_frame.h"
+#include "sim/disparity_range.h"
+#include "sim/infrared_image.h"
+#include "sim/speckle_matching.h"
+
+namespace fenestra {
+
+/// Depth from an infra-red image of the projected dots, as the sensor itself finds it.
+class SpeckleDepth {
+ public:
+  /// `depth`: the camera whose pixels the depth image has. The infra-red image is `scale` times as
+  /// wide and high; depth pixel (u, v) is its pixel (scale u, scale v).
+  SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
+               const CameraModel& depth, int scale, double baseline_m, const DisparityRange& range);
+
+  /// `unit_m`: of the depth image. `shot`: tells this view's laser speckle from others', `frame`
+  /// this frame's noise.
+  DepthFrame Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                     double unit_m, const RandomStream& shot, const RandomStream& frame) const;
+
+  /// The infra-red image alone, 10 bits.
+  cv::Mat1w ObserveInfrared(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                            const RandomStream& shot, const RandomStream& frame) const;
+
+ private:
+  AovImages CastAovs(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
+  /// Why the infra-red image's pixel has no match.
+  NoReturn Reason(const AovImages& aovs, cv::Point pixel, const SpeckleMatches& matches) const;
+
+  InfraredOptions infrared_;
+  SpeckleMatchingOptions matching_;
+  DisparityRange range_;
+  double baseline_m_;
+  int scale_;
+  cv::Size depth_size_;
+  RayGrid rays_;
+  GatheredPattern pattern_;
+  SpeckleMatcher matcher_;
+};
+
+}  // namespace fenestra

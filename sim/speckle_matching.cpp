@@ -1,0 +1,216 @@
+#include "sim/speckle_matching.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/check.h"
+#include "core/input_error.h"
+#include "core/wide.h"
+
+namespace fenestra {
+namespace {
+
+// Grey values of the memorised pattern: a dot's peak is half of this, for dots may overlap.
+constexpr float kPatternScale = 127.0f;
+
+// Below any correlation, and so far from any step that all steps are away from it.
+constexpr float kNoScore = -100.0f;
+
+// Column sums of products move down by one row.
+FENESTRA_WIDE void MoveDown(const int* in_image, const int* in_pattern, const int* out_image,
+                            const int* out_pattern, int* sums, int count) {
+  for (int u = 0; u < count; ++u) {
+    sums[u] += in_image[u] * in_pattern[u] - out_image[u] * out_pattern[u];
+  }
+}
+
+FENESTRA_WIDE void AddProducts(const int* image, const int* pattern, int* sums, int count) {
+  for (int u = 0; u < count; ++u) sums[u] += image[u] * pattern[u];
+}
+
+// sums[u] = in[u] + … + in[u + window - 1].
+FENESTRA_WIDE void AddShifts(const int* in, int window, int* sums, int count) {
+  for (int u = 0; u < count; ++u) sums[u] = in[u];
+  for (int i = 1; i < window; ++i) {
+    for (int u = 0; u < count; ++u) sums[u] += in[u + i];
+  }
+}
+
+struct Statistics {
+  const int* image_sums;
+  const float* image_inverse_spread;
+  const int* pattern_sums;
+  const float* pattern_inverse_spread;
+};
+
+FENESTRA_WIDE void Update(const int* products, const Statistics& s, float pixels, float step,
+                          const SpeckleMatcher::Best& best, int count) {
+  constexpr float kAway = 2.5f;  // Steps of half a pixel.
+  for (int u = 0; u < count; ++u) {
+    const float covariance =
+        pixels * static_cast<float>(products[u]) -
+        static_cast<float>(s.image_sums[u]) * static_cast<float>(s.pattern_sums[u]);
+    const float score = covariance * (s.image_inverse_spread[u] * s.pattern_inverse_spread[u]);
+    const bool better = score > best.score[u];
+    const bool away = step - best.step[u] > kAway;
+    const bool next = step - best.step[u] < 1.5f;
+    const float loser = better ? best.score[u] : score;
+    best.second[u] = away && loser > best.second[u] ? loser : best.second[u];
+    best.after[u] = better ? kNoScore : (next ? score : best.after[u]);
+    best.before[u] = better ? best.last[u] : best.before[u];
+    best.step[u] = better ? step : best.step[u];
+    best.score[u] = better ? score : best.score[u];
+    best.last[u] = score;
+  }
+}
+
+// Sums over windows, and 1/√(n Σ x² - (Σ x)²), at the windows' centres; 0 where a window is flat or
+// leaves the image.
+void WindowStatistics(const cv::Mat1i& image, int reach_u, int reach_v, cv::Mat1i& sums,
+                      cv::Mat1f& inverse_spread) {
+  sums = cv::Mat1i::zeros(image.size());
+  inverse_spread = cv::Mat1f::zeros(image.size());
+  const double pixels = (2 * reach_u + 1) * (2 * reach_v + 1);
+  cv::Mat1d sum;
+  cv::Mat1d squares;
+  cv::integral(cv::Mat1f(image), sum, squares, CV_64F, CV_64F);
+  for (int v = reach_v; v + reach_v < image.rows; ++v) {
+    for (int u = reach_u; u + reach_u < image.cols; ++u) {
+      const auto box = [&](const cv::Mat1d& integral) {
+        return integral(v + reach_v + 1, u + reach_u + 1) - integral(v - reach_v, u + reach_u + 1) -
+               integral(v + reach_v + 1, u - reach_u) + integral(v - reach_v, u - reach_u);
+      };
+      const double s = box(sum);
+      const double spread2 = pixels * box(squares) - s * s;
+      sums(v, u) = static_cast<int>(std::lround(s));
+      if (spread2 > 0.5) inverse_spread(v, u) = static_cast<float>(1.0 / std::sqrt(spread2));
+    }
+  }
+}
+
+}  // namespace
+
+void Validate(const SpeckleMatchingOptions& o) {
+  std::vector<InputFault> faults;
+  const auto demand = [&faults](bool holds, const char* message) {
+    if (!holds) faults.push_back({"speckle matching", 0, 0, message});
+  };
+  for (const int side : {o.window_width_px, o.window_height_px}) {
+    demand(side >= 3 && side <= 15 && side % 2 == 1,
+           "the window's sides must be odd numbers from 3 to 15 px");
+  }
+  demand(o.least_correlation > 0.0 && o.least_correlation < 1.0,
+         "the least correlation must lie between 0 and 1");
+  demand(o.least_lead >= 0.0 && o.least_lead < 1.0, "the least lead must lie between 0 and 1");
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
+                               const GatheredPattern& pattern, cv::Size image, double least_px,
+                               double most_px)
+    : options_((Validate(options), options)),
+      size_(image),
+      least_(static_cast<int>(std::floor(least_px))),
+      most_(static_cast<int>(std::ceil(most_px))) {
+  FENESTRA_CHECK(0 <= least_ && least_ < most_ && most_ <= 1000, "disparities from 0 to 1000 px");
+  for (int phase = 0; phase < 2; ++phase) {
+    Phase& p = phases_[phase];
+    p.values = cv::Mat1i(image.height, image.width + most_);
+    for (int v = 0; v < p.values.rows; ++v) {
+      for (int i = 0; i < p.values.cols; ++i) {
+        p.values(v, i) =
+            static_cast<int>(std::lround(kPatternScale * pattern.At(i - most_ - 0.5 * phase, v)));
+      }
+    }
+    WindowStatistics(p.values, options.window_width_px / 2, options.window_height_px / 2, p.sums,
+                     p.inverse_spread);
+  }
+}
+
+SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
+  FENESTRA_CHECK(image.size() == size_, "the image must have the matcher's size");
+  const int reach_u = options_.window_width_px / 2;
+  const int reach_v = options_.window_height_px / 2;
+  const int width = size_.width;
+  cv::Mat1i grey;
+  image.convertTo(grey, CV_32S);
+  cv::Mat1i sums;
+  cv::Mat1f inverse_spread;
+  WindowStatistics(grey, reach_u, reach_v, sums, inverse_spread);
+
+  SpeckleMatches matches{cv::Mat1f(size_, std::numeric_limits<float>::quiet_NaN()),
+                         cv::Mat1f(size_, -1.0f)};
+  const int inside = width - 2 * reach_u;
+  if (inside <= 0 || size_.height <= 2 * reach_v) return matches;
+
+  // Row by row, so that what is remembered of a row's pixels stays at hand while all disparities
+  // are tried. Disparity least + k/2 is the pattern at u - d; phase 1 has it half a pixel further.
+  const int steps = 2 * (most_ - least_);
+  const auto pattern_row = [&](int k, const cv::Mat& of, int v) {
+    return of.ptr<int>(v) + most_ - least_ - k / 2;
+  };
+  const auto pixels = static_cast<float>(options_.window_width_px * options_.window_height_px);
+  cv::Mat1i columns = cv::Mat1i::zeros(steps + 1, width);
+  for (int k = 0; k <= steps; ++k) {
+    for (int v = 0; v <= 2 * reach_v; ++v) {
+      AddProducts(grey[v], pattern_row(k, phases_[k % 2].values, v), columns[k], width);
+    }
+  }
+  std::vector<int> products(static_cast<size_t>(inside));
+  for (int v = reach_v; v + reach_v < size_.height; ++v) {
+    cv::Mat1f memory(6, inside, kNoScore);
+    const Best best{.score = memory[0],
+                    .step = memory[1],
+                    .before = memory[2],
+                    .after = memory[3],
+                    .second = memory[4],
+                    .last = memory[5]};
+    for (int k = 0; k <= steps; ++k) {
+      const Phase& phase = phases_[k % 2];
+      if (v > reach_v) {
+        MoveDown(grey[v + reach_v], pattern_row(k, phase.values, v + reach_v),
+                 grey[v - reach_v - 1], pattern_row(k, phase.values, v - reach_v - 1), columns[k],
+                 width);
+      }
+      AddShifts(columns[k], 2 * reach_u + 1, products.data(), inside);
+      const int shift = most_ - least_ - k / 2 + reach_u;
+      Update(products.data(),
+             {.image_sums = sums[v] + reach_u,
+              .image_inverse_spread = inverse_spread[v] + reach_u,
+              .pattern_sums = phase.sums[v] + shift,
+              .pattern_inverse_spread = phase.inverse_spread[v] + shift},
+             pixels, static_cast<float>(k), best, inside);
+    }
+    for (int i = 0; i < inside; ++i) {
+      matches.correlation(v, i + reach_u) = std::max(best.score[i], -1.0f);
+      if (const auto step = Accept(best, i)) {
+        matches.disparity_px(v, i + reach_u) = static_cast<float>(least_) + 0.5f * *step;
+      }
+    }
+  }
+  return matches;
+}
+
+std::optional<float> SpeckleMatcher::Accept(const Best& best, int i) const {
+  const float score = best.score[i];
+  const float before = best.before[i];
+  const float after = best.after[i];
+  if (score < static_cast<float>(options_.least_correlation)) return std::nullopt;
+  if (score - best.second[i] < static_cast<float>(options_.least_lead)) return std::nullopt;
+  // The first and the last step have no neighbour on one side.
+  if (before == kNoScore || after == kNoScore) return std::nullopt;
+  // Near its top the correlation of two patterns of Gaussian dots is a Gaussian: the vertex of the
+  // parabola through the logarithms.
+  if (before <= 0.0f || after <= 0.0f) return best.step[i];
+  const float left = std::log(before / score);
+  const float right = std::log(after / score);
+  const float bend = left + right;
+  return best.step[i] + (bend < 0.0f ? 0.5f * (left - right) / bend : 0.0f);
+}
+
+}  // namespace fenestra

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "sim/infrared_image.h"
+
+namespace fenestra {
+
+/// How the sensor finds its pattern in an infra-red image. Windows of 9 x 9 or 9 x 7 pixels, a
+/// search over 64 px and results in 1/8 px are what ROS kinect_calibration/technical infers.
+struct SpeckleMatchingOptions {
+  int window_width_px = 9;   ///< Odd, 3 to 15.
+  int window_height_px = 9;  ///< Odd, 3 to 15.
+  /// A match counts if its correlation coefficient is at least this, of windows of 81 pixels chance
+  /// has a standard deviation of 1/9. Chosen.
+  double least_correlation = 0.5;
+  /// And if no other place more than a pixel away comes so near to it. Chosen.
+  double least_lead = 0.15;
+};
+
+/// Throws InputError with all faults.
+void Validate(const SpeckleMatchingOptions& options);
+
+/// The place of each pixel's window in the memorised pattern: disparities [px], NaN without match.
+struct SpeckleMatches {
+  cv::Mat1f disparity_px;
+  cv::Mat1f correlation;  ///< Of the best place; -1 where none could be tried.
+};
+
+/// Finds, for the window I around each pixel (u, v) of an infra-red image, the disparity d that
+/// maximises its correlation coefficient with the pattern R at u - d,
+///
+///     ZNCC(d) = cov(I, R_d) / √(var I var R_d),
+///
+/// over steps of half a pixel, and the vertex of the parabola through the best and its neighbours.
+class SpeckleMatcher {
+ public:
+  /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
+  SpeckleMatcher(const SpeckleMatchingOptions& options, const GatheredPattern& pattern,
+                 cv::Size image, double least_px, double most_px);
+
+  /// `image`: 10 bits. Windows that leave it are not matched.
+  SpeckleMatches Match(const cv::Mat1w& image) const;
+
+  /// What is known of each pixel of a row while disparities are tried one after the other.
+  struct Best {
+    float* score;   ///< The best one,
+    float* step;    ///< where it was, in half pixels,
+    float* before;  ///< the scores next to it,
+    float* after;
+    float* second;  ///< and the best one more than a pixel away.
+    float* last;    ///< The score of the step before.
+  };
+
+ private:
+  /// The step, with its fraction, at which pixel i of a row matches.
+  std::optional<float> Accept(const Best& best, int i) const;
+
+  /// The pattern displaced by half a pixel (phase 1) or not (phase 0), and its windows' statistics;
+  /// column i is the pattern's column i - most.
+  struct Phase {
+    cv::Mat1i values;          ///< Up to 255.
+    cv::Mat1i sums;            ///< Over windows.
+    cv::Mat1f inverse_spread;  ///< 1/√(n Σ R² - (Σ R)²) over windows.
+  };
+
+  SpeckleMatchingOptions options_;
+  cv::Size size_;
+  int least_;
+  int most_;
+  std::array<Phase, 2> phases_;
+};
+
+}  // namespace fenestra
