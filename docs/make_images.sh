@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Makes the pictures of the README and of docs/*.md from those of these runs:
 #     ./run && ./run run gallery && ./run emva results/emva
+#     ./run depth results/depth
 #     pairs=tests/data/stereo-calibration
 #     ./run calibrate stereo --left "$pairs/left*.jpg" --right "$pairs/right*.jpg" --corners 9x6 \
 #       --square-mm 30 --out results/rig
@@ -11,6 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 results=${1:-results}
 
 convert "$results/emva/photon_transfer.png" -colors 64 docs/images/photon_transfer.png
+convert "$results/depth/depth_curves.png" -colors 64 docs/images/depth_curves.png
 convert "$results/rig/residuals.png" -colors 64 docs/images/residuals.png
 
 pictures=$results/paper/pictures

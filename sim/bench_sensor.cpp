@@ -3,9 +3,12 @@
 
 #include <benchmark/benchmark.h>
 
+#include "scenes/facade.h"
 #include "sim/image_sensor.h"
 #include "sim/lens.h"
 #include "sim/stereo_rig.h"
+#include "sim/structured_light_sensor.h"
+#include "sim/viewpoint.h"
 
 namespace fenestra {
 namespace {
@@ -73,6 +76,40 @@ void BM_RigConstruction(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_RigConstruction)->Unit(benchmark::kMillisecond);
+
+// A depth and a colour frame of a facade with one window, 2 m away. Argument: the depth model.
+void BM_RgbdFrame(benchmark::State& state) {
+  StructuredLightOptions options;
+  options.depth_model = static_cast<DepthModel>(state.range(0));
+  const StructuredLightSensor sensor(options);
+  const RayCaster caster(MakeFacade({}));
+  Lighting lighting;
+  lighting.sky.illuminance_lx = 1000.0;
+  const Pose X_WB = RigPose({.distance_m = 2.0}, Pose());
+  uint64_t frame = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        sensor.Observe(caster, lighting, X_WB, RandomStream(3).Child("frame", frame++)));
+  }
+}
+BENCHMARK(BM_RgbdFrame)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+// The depth frame alone.
+void BM_DepthFrame(benchmark::State& state) {
+  StructuredLightOptions options;
+  options.depth_model = static_cast<DepthModel>(state.range(0));
+  const StructuredLightSensor sensor(options);
+  const RayCaster caster(MakeFacade({}));
+  Lighting lighting;
+  lighting.sky.illuminance_lx = 1000.0;
+  const Pose X_WB = RigPose({.distance_m = 2.0}, Pose());
+  uint64_t frame = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        sensor.ObserveDepth(caster, lighting, X_WB, RandomStream(3).Child("frame", frame++)));
+  }
+}
+BENCHMARK(BM_DepthFrame)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace fenestra

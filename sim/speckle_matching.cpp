@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -35,37 +36,63 @@ FENESTRA_WIDE void AddProducts(const int* image, const int* pattern, int* sums, 
 
 // sums[u] = in[u] + … + in[u + window - 1].
 FENESTRA_WIDE void AddShifts(const int* in, int window, int* sums, int count) {
+  if (window == 9) {  // The sensor's own, in one pass.
+    for (int u = 0; u < count; ++u) {
+      sums[u] = in[u] + in[u + 1] + in[u + 2] + in[u + 3] + in[u + 4] + in[u + 5] + in[u + 6] +
+                in[u + 7] + in[u + 8];
+    }
+    return;
+  }
   for (int u = 0; u < count; ++u) sums[u] = in[u];
   for (int i = 1; i < window; ++i) {
     for (int u = 0; u < count; ++u) sums[u] += in[u + i];
   }
 }
 
-struct Statistics {
-  const int* image_sums;
-  const float* image_inverse_spread;
-  const int* pattern_sums;
-  const float* pattern_inverse_spread;
-};
-
-FENESTRA_WIDE void Update(const int* products, const Statistics& s, float pixels, float step,
-                          const SpeckleMatcher::Best& best, int count) {
-  constexpr float kAway = 2.5f;  // Steps of half a pixel.
+// The correlation coefficients of windows with n pixels, by their sums and 1/√(n Σ x² - (Σ x)²).
+FENESTRA_WIDE void Correlate(const int* products, float pixels, const int* image_sums,
+                             const float* image_inverse_spread, const int* pattern_sums,
+                             const float* pattern_inverse_spread, float* scores, int count) {
   for (int u = 0; u < count; ++u) {
     const float covariance =
         pixels * static_cast<float>(products[u]) -
-        static_cast<float>(s.image_sums[u]) * static_cast<float>(s.pattern_sums[u]);
-    const float score = covariance * (s.image_inverse_spread[u] * s.pattern_inverse_spread[u]);
-    const bool better = score > best.score[u];
-    const bool away = step - best.step[u] > kAway;
-    const bool next = step - best.step[u] < 1.5f;
-    const float loser = better ? best.score[u] : score;
-    best.second[u] = away && loser > best.second[u] ? loser : best.second[u];
-    best.after[u] = better ? kNoScore : (next ? score : best.after[u]);
-    best.before[u] = better ? best.last[u] : best.before[u];
-    best.step[u] = better ? step : best.step[u];
-    best.score[u] = better ? score : best.score[u];
-    best.last[u] = score;
+        static_cast<float>(image_sums[u]) * static_cast<float>(pattern_sums[u]);
+    scores[u] = covariance * (image_inverse_spread[u] * pattern_inverse_spread[u]);
+  }
+}
+
+// All bits set where it holds.
+inline int32_t MaskOf(bool holds) {
+  return -static_cast<int32_t>(holds);
+}
+
+// By bits: the compiler makes branches of nested choices, and no vectors of branches.
+inline float Choose(int32_t mask, float a, float b) {
+  return std::bit_cast<float>((std::bit_cast<int32_t>(a) & mask) |
+                              (std::bit_cast<int32_t>(b) & ~mask));
+}
+
+// Everything is loaded before anything is stored, and no two of the arrays overlap.
+FENESTRA_WIDE void Update(const float* __restrict scores, float step, float* __restrict best_score,
+                          float* __restrict best_step, float* __restrict best_before,
+                          float* __restrict best_after, float* __restrict best_second,
+                          float* __restrict last, int count) {
+  constexpr float kAway = 2.5f;  // Steps of half a pixel.
+  for (int u = 0; u < count; ++u) {
+    const float score = scores[u];
+    const float old_score = best_score[u];
+    const float old_second = best_second[u];
+    const float distance = step - best_step[u];
+    const int32_t better = MaskOf(score > old_score);
+    const float loser = Choose(better, old_score, score);
+    const int32_t second = MaskOf(distance > kAway) & MaskOf(loser > old_second);
+    const float after = Choose(MaskOf(distance < 1.5f), score, best_after[u]);
+    best_second[u] = Choose(second, loser, old_second);
+    best_after[u] = Choose(better, kNoScore, after);
+    best_before[u] = Choose(better, last[u], best_before[u]);
+    best_step[u] = Choose(better, step, step - distance);
+    best_score[u] = Choose(better, score, old_score);
+    last[u] = score;
   }
 }
 
@@ -162,6 +189,7 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
     }
   }
   std::vector<int> products(static_cast<size_t>(inside));
+  std::vector<float> scores(products.size());
   for (int v = reach_v; v + reach_v < size_.height; ++v) {
     cv::Mat1f memory(6, inside, kNoScore);
     const Best best{.score = memory[0],
@@ -179,12 +207,10 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
       }
       AddShifts(columns[k], 2 * reach_u + 1, products.data(), inside);
       const int shift = most_ - least_ - k / 2 + reach_u;
-      Update(products.data(),
-             {.image_sums = sums[v] + reach_u,
-              .image_inverse_spread = inverse_spread[v] + reach_u,
-              .pattern_sums = phase.sums[v] + shift,
-              .pattern_inverse_spread = phase.inverse_spread[v] + shift},
-             pixels, static_cast<float>(k), best, inside);
+      Correlate(products.data(), pixels, sums[v] + reach_u, inverse_spread[v] + reach_u,
+                phase.sums[v] + shift, phase.inverse_spread[v] + shift, scores.data(), inside);
+      Update(scores.data(), static_cast<float>(k), best.score, best.step, best.before, best.after,
+             best.second, best.last, inside);
     }
     for (int i = 0; i < inside; ++i) {
       matches.correlation(v, i + reach_u) = std::max(best.score[i], -1.0f);

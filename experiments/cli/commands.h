@@ -21,6 +21,7 @@ void AddReplayCommand(CLI::App& program, int& exit_code);
 void AddDetectCommand(CLI::App& program, int& exit_code);
 void AddCalibrateCommand(CLI::App& program, int& exit_code);
 void AddEmvaCommand(CLI::App& program, int& exit_code);
+void AddDepthCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);
 
 }  // namespace fenestra::cli

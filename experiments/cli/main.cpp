@@ -90,6 +90,7 @@ int Main(int argc, char** argv) {
   AddDetectCommand(program, exit_code);
   AddCalibrateCommand(program, exit_code);
   AddEmvaCommand(program, exit_code);
+  AddDepthCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {
     program.parse(argc, argv);

@@ -1,0 +1,37 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/atomic_file.h"
+#include "core/image_io.h"
+#include "experiments/cli/commands.h"
+#include "experiments/depth_curves.h"
+
+namespace fenestra::cli {
+
+void AddDepthCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "depth", "Measures the RGB-D sensor's depth before walls, beside published curves");
+  command->footer(
+      "Example:\n"
+      "  fenestra depth /tmp/depth\n"
+      "Noise by distance and angle, and which share of pixels returns by ambient light and paint,\n"
+      "for both models of the sensor. Takes about a minute.");
+  const auto folder = std::make_shared<std::filesystem::path>();
+  const auto seed = std::make_shared<uint64_t>(1);
+  command->add_option("DIR", *folder, "Folder for tables and pictures")->required();
+  command->add_option("--seed", *seed, "Of the noise")->capture_default_str();
+  command->callback([folder, seed, &exit_code] {
+    StructuredLightOptions options;
+    const DepthCurves parametric = MeasureDepthCurves(options, RandomStream(*seed));
+    options.depth_model = DepthModel::kSpeckle;
+    const DepthCurves speckle = MeasureDepthCurves(options, RandomStream(*seed));
+    const std::string report = DepthCurvesMarkdown(parametric, speckle);
+    WriteFileAtomically(*folder / "depth_curves.md", report);
+    WritePng(*folder / "depth_curves.png", DepthCurvesPicture(parametric, speckle));
+    fmt::print("{}\nIn {}: depth_curves.md, depth_curves.png\n", report, folder->string());
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli
