@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "scenes/facade.h"
 #include "scenes/paper_target.h"
 #include "sim/structured_light_sensor.h"
 #include "sim/viewpoint.h"
+#include "tests/sim/depth_poses.h"
 
 namespace fenestra {
 namespace {
@@ -17,16 +17,6 @@ namespace {
 StructuredLightOptions Speckle() {
   StructuredLightOptions options;
   options.depth_model = DepthModel::kSpeckle;
-  return options;
-}
-
-// Images of a quarter of the width: the same sensor with a longer pixel.
-StructuredLightOptions Small() {
-  StructuredLightOptions options = Speckle();
-  options.infrared_width_px = 160;
-  options.depth_width_px = 80;
-  options.depth_height_px = 60;
-  options.depth_focal_px /= 4.0;
   return options;
 }
 
@@ -219,31 +209,7 @@ TEST(SpeckleDepthTest, NothingIsSeenOutsideTheRange) {
 }
 
 TEST(SpeckleDepthTest, NoPoseGivesDepthWhereNothingIs) {
-  const StructuredLightSensor sensor(Small());
-  const Scene scene = MakeFacade({});
-  const RayCaster caster(scene);
-  for (uint64_t i = 0; i < 1000; ++i) {
-    const RandomStream stream = RandomStream(5).Child("pose", i);
-    const auto uniform = [&](uint64_t k, double low, double high) {
-      return low + (high - low) * stream.Uniform(k);
-    };
-    // From inside the wall to far away, looking anywhere.
-    const double reach = std::pow(10.0, uniform(0, -3.0, 2.0));
-    const Eigen::Vector3d place(uniform(1, -reach, reach), uniform(2, -reach, reach),
-                                uniform(3, -0.2 * reach, reach));
-    const Pose X_WB(
-        RotationFromVector({uniform(4, -3.0, 3.0), uniform(5, -3.0, 3.0), uniform(6, -3.0, 3.0)}),
-        place);
-    const DepthFrame frame = sensor.ObserveDepth(caster, Dark(), X_WB, stream);
-    const AovImages truth = sensor.PixelTruth(caster, Dark(), X_WB).aovs;
-    for (int v = 0; v < frame.depth.raw.rows; ++v) {
-      for (int u = 0; u < frame.depth.raw.cols; ++u) {
-        if (frame.depth.raw(v, u) == 0) continue;
-        EXPECT_TRUE(std::isfinite(truth.depth_m(v, u))) << i << ": " << u << ", " << v;
-        EXPECT_EQ(frame.no_return(v, u), 0);
-      }
-    }
-  }
+  EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kSpeckle, 1000, 5), 0);
 }
 
 }  // namespace
