@@ -79,7 +79,7 @@ std::vector<double> RoundTicks(double low, double high, int count) {
   const double first = std::ceil(low / step - 1e-9);
   // Steps are not shorter than raw ones. Far from 0 they may be too short for a double to take.
   for (int i = 0; i <= count && (first + i) * step <= high + 1e-9 * step; ++i) {
-    ticks.push_back((first + i) * step + 0.0);
+    ticks.push_back((first + i) * step);
   }
   return ticks;
 }
