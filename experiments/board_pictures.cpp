@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <set>
 
 #include "core/image_io.h"
@@ -76,6 +78,59 @@ std::vector<fs::path> FilesIn(const fs::path& folder, const std::string& pattern
   return files;
 }
 
+// All runs of digits in a file's name, without leading zeros: what tells the pictures of a session
+// apart. "left03" and "right3" have the same ones.
+std::vector<std::string> NumbersIn(const fs::path& file) {
+  std::vector<std::string> numbers;
+  bool inside = false;
+  for (const char c : file.stem().string()) {
+    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+    if (digit && !inside) numbers.emplace_back();
+    if (digit && numbers.back() == "0") numbers.back().clear();
+    if (digit) numbers.back() += c;
+    inside = digit;
+  }
+  return numbers;
+}
+
+// A pair whose left picture has a namesake on the right, but another one beside it.
+std::optional<std::string> WrongPair(const std::vector<PicturePair>& pairs) {
+  for (const PicturePair& pair : pairs) {
+    std::error_code error;
+    if (fs::equivalent(pair.left, pair.right, error)) {
+      return fmt::format("{} is both a left and a right picture", pair.left.string());
+    }
+    const std::vector<std::string> own = NumbersIn(pair.left);
+    if (own.empty() || own == NumbersIn(pair.right)) continue;
+    const auto namesake = std::find_if(pairs.begin(), pairs.end(), [&](const PicturePair& other) {
+      return NumbersIn(other.right) == own;
+    });
+    if (namesake != pairs.end()) {
+      return fmt::format("{} would be paired with {}, not with {}: a picture is missing",
+                         pair.left.filename().string(), pair.right.filename().string(),
+                         namesake->right.filename().string());
+    }
+  }
+  return std::nullopt;
+}
+
+// A baseline that is none, or that points to the wrong side.
+void CheckBaseline(const StereoCalibrationResult& result) {
+  const Eigen::Vector3d t_RL = result.calibration.X_RL.translation();
+  const double deviation_m = std::sqrt(result.covariance.diagonal().tail<3>().sum());
+  if (t_RL.norm() < 5.0 * deviation_m) {
+    throw InputError("calibration",
+                     fmt::format("the cameras are {:.2g} ± {:.2g} mm apart: are the left and the "
+                                 "right pictures those of one camera?",
+                                 1e3 * t_RL.norm(), 1e3 * deviation_m));
+  }
+  if (t_RL.x() > std::abs(t_RL.y())) {
+    throw InputError("calibration",
+                     "the right camera stands to the left of the left one: --left and --right are "
+                     "swapped");
+  }
+}
+
 cv::Mat1b ReadBoardPicture(const fs::path& file) {
   cv::Mat1b grey;
   cv::cvtColor(ReadColorImage(file), grey, cv::COLOR_BGR2GRAY);
@@ -104,7 +159,9 @@ std::vector<fs::path> ImageFiles(const std::vector<std::string>& arguments) {
     files.insert(files.end(), found.begin(), found.end());
   }
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return NaturallyLess(a.string(), b.string());
+    if (NaturallyLess(a.string(), b.string())) return true;
+    // "view1" and "view01" are in some order, always the same.
+    return !NaturallyLess(b.string(), a.string()) && a < b;
   });
   return files;
 }
@@ -117,6 +174,7 @@ std::vector<PicturePair> PairUp(const std::vector<fs::path>& left,
   }
   std::vector<PicturePair> pairs;
   for (size_t i = 0; i < left.size(); ++i) pairs.push_back({left[i], right[i]});
+  if (const auto wrong = WrongPair(pairs)) throw InputError("--left, --right", *wrong);
   return pairs;
 }
 
@@ -168,6 +226,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
   }
   StereoCalibrationResult result = CalibrateStereo(
       views, board, {.left_size = size, .right_size = size, .adjustment = adjustment});
+  CheckBaseline(result);
   result.left_out.insert(result.left_out.begin(), without_board.begin(), without_board.end());
   return result;
 }

@@ -36,6 +36,9 @@ std::string Sealed(const std::string& yaml, const std::string& comments) {
 
 std::optional<StereoCalibration> Read(const std::filesystem::path& file,
                                       const std::string& comments) {
+  // A folder can be opened as a file; reading it is what fails.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const size_t end = text.find("# sum ");

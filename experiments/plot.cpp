@@ -27,6 +27,12 @@ void Write(cv::Mat3b& canvas, const std::string& text, cv::Point place, Anchor a
   cv::putText(canvas, text, place, kFont, scale, kInk, 1, cv::LINE_AA);
 }
 
+// Centred on a column, but moved to the left where it would leave the part that ends at `right`.
+void WriteWithin(cv::Mat3b& canvas, const std::string& text, cv::Point centre, int right) {
+  const int width = cv::getTextSize(text, kFont, kFontScale, 1, nullptr).width;
+  Write(canvas, text, {std::min(centre.x - width / 2, right - width - 2), centre.y}, Anchor::kLeft);
+}
+
 void WriteUpwards(cv::Mat3b& canvas, const std::string& text, cv::Point centre) {
   const cv::Size size = cv::getTextSize(text, kFont, kFontScale, 1, nullptr);
   cv::Mat3b strip = WhiteCanvas({size.width + 4, size.height + 8});
@@ -70,8 +76,10 @@ std::vector<double> RoundTicks(double low, double high, int count) {
   const double digit = raw / power;
   const double step = power * (digit <= 1.0 ? 1.0 : digit <= 2.0 ? 2.0 : digit <= 5.0 ? 5.0 : 10.0);
   std::vector<double> ticks;
-  for (double k = std::ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1.0) {
-    ticks.push_back(k * step + 0.0);
+  const double first = std::ceil(low / step - 1e-9);
+  // Steps are not shorter than raw ones. Far from 0 they may be too short for a double to take.
+  for (int i = 0; i <= count && (first + i) * step <= high + 1e-9 * step; ++i) {
+    ticks.push_back((first + i) * step);
   }
   return ticks;
 }
@@ -93,7 +101,7 @@ void Plot::DrawTicks() const {
   for (const double tick : TicksOf(frame_.x)) {
     const int x = static_cast<int>(Place({tick, frame_.y.low}).x);
     cv::line(canvas_, {x, inner_.y}, {x, inner_.br().y}, kGrid, 1);
-    Write(canvas_, fmt::format("{:g}", tick), {x, inner_.br().y + 17}, Anchor::kCentre);
+    WriteWithin(canvas_, fmt::format("{:g}", tick), {x, inner_.br().y + 17}, frame_.area.br().x);
   }
   for (const double tick : TicksOf(frame_.y)) {
     const int y = static_cast<int>(Place({frame_.x.low, tick}).y);

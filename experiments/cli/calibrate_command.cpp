@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <charconv>
 #include <filesystem>
 
 #include "core/input_error.h"
@@ -21,14 +22,29 @@ struct CalibrateArguments {
   std::filesystem::path out;
 };
 
-CalibrationBoard BoardOf(const CalibrateArguments& arguments) {
+struct Corners {
   int columns = 0;
   int rows = 0;
-  char rest = 0;
-  if (std::sscanf(arguments.corners.c_str(), "%dx%d%c", &columns, &rows, &rest) != 2) {
-    throw InputError("--corners", fmt::format("'{}' is not COLUMNSxROWS of inner corners, like 9x6",
-                                              arguments.corners));
+};
+
+// "9x6". Numbers too large for a board are refused by Validate, those too large for an int here.
+Corners CornersIn(const std::string& text) {
+  Corners corners;
+  const char* const end = text.data() + text.size();
+  const auto columns = std::from_chars(text.data(), end, corners.columns);
+  const bool has_x = columns.ec == std::errc() && columns.ptr != end && *columns.ptr == 'x';
+  const auto rows = has_x ? std::from_chars(columns.ptr + 1, end, corners.rows) : columns;
+  constexpr int kMost = 1000;
+  if (!has_x || rows.ec != std::errc() || rows.ptr != end || corners.columns > kMost ||
+      corners.rows > kMost) {
+    throw InputError("--corners",
+                     fmt::format("'{}' is not COLUMNSxROWS of inner corners, like 9x6", text));
   }
+  return corners;
+}
+
+CalibrationBoard BoardOf(const CalibrateArguments& arguments) {
+  const auto [columns, rows] = CornersIn(arguments.corners);
   if (arguments.charuco && !(arguments.marker_mm > 0.0)) {
     throw InputError("--marker-mm", "a ChArUco board needs the side of its markers");
   }
@@ -80,10 +96,10 @@ void AddCalibrateCommand(CLI::App& program, int& exit_code) {
   stereo->add_option("--corners", arguments->corners, "Inner corners, COLUMNSxROWS")->required();
   stereo->add_option("--square-mm", arguments->square_mm, "Side of a square")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
   stereo->add_flag("--charuco", arguments->charuco, "A ChArUco board of DICT_5X5_100");
   stereo->add_option("--marker-mm", arguments->marker_mm, "Side of a ChArUco marker")
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
   stereo->add_flag("--free-k3", arguments->free_k3,
                    "Estimate k3, too: for lenses with strong distortion and many views");
   stereo->add_option("--out", arguments->out, "Folder for the results")->required();

@@ -12,6 +12,9 @@ enum ExitCode : int {
   kFailure = 3,
 };
 
+/// Accepts finite numbers above 0. CLI11's own validator names the largest double in its message.
+CLI::Validator Positive();
+
 /// Each adds one command to the program. A command runs when the command line has been parsed and
 /// leaves the program's exit code in `exit_code`.
 void AddRunCommand(CLI::App& program, int& exit_code);

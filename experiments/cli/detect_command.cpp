@@ -131,7 +131,7 @@ void AddDetectCommand(CLI::App& program, int& exit_code) {
       ->required();
   rgbd->add_option("--depth-scale", rgbd_arguments->depth_scale,
                    "Units per metre; default: as the calibration says")
-      ->check(CLI::PositiveNumber);
+      ->check(Positive());
   AddCommonOptions(*rgbd, *rgbd_arguments, "paper-rgbd");
   rgbd->footer(
       "Example:\n"

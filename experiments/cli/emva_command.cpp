@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/atomic_file.h"
@@ -25,6 +26,25 @@ struct EmvaArguments {
   uint64_t seed = 1;
 };
 
+// The factors that a bare sensor in homogeneous light knows of; the others would change nothing.
+const std::vector<std::string>& SensorFactors() {
+  static const std::vector<std::string> names = {"stereo_quantum_efficiency_scale",
+                                                 "stereo_saturation_e",
+                                                 "stereo_read_noise_e",
+                                                 "stereo_dark_current_e_s",
+                                                 "stereo_dark_current_doubling_k",
+                                                 "stereo_temperature_c",
+                                                 "stereo_dsnu_e",
+                                                 "stereo_prnu_percent",
+                                                 "stereo_row_noise_e",
+                                                 "stereo_adc_bits",
+                                                 "stereo_output_bits",
+                                                 "stereo_black_level_dn",
+                                                 "stereo_noise",
+                                                 "stereo_fixed_pattern"};
+  return names;
+}
+
 // The stereo camera's settings with the factors that the user gave.
 TrialSettings SettingsOf(const EmvaArguments& arguments) {
   TrialSettings settings;
@@ -32,11 +52,13 @@ TrialSettings SettingsOf(const EmvaArguments& arguments) {
   for (const std::string& assignment : arguments.set) {
     const size_t equals = assignment.find('=');
     const std::string name = assignment.substr(0, equals);
-    const ParameterInfo* info = Factors().Find(name);
-    if (equals == std::string::npos || info == nullptr) {
-      throw InputError("--set", fmt::format("'{}' is not FACTOR=VALUE with a stereo factor.{}",
-                                            assignment, DidYouMean(name, Factors().Names())));
+    const auto& known = SensorFactors();
+    if (equals == std::string::npos || std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError("--set",
+                       fmt::format("'{}' is not FACTOR=VALUE with a factor of the stereo sensor.{}",
+                                   assignment, DidYouMean(name, known)));
     }
+    const ParameterInfo* info = Factors().Find(name);
     YamlReader reader = YamlReader::FromText(assignment.substr(equals + 1), "--set " + name);
     const auto value = info->Read(reader, reader.root());
     reader.ThrowIfFaulty();
@@ -76,6 +98,16 @@ void Emva(const EmvaArguments& arguments) {
                emva::PutInBy(simulation, sensor));
 }
 
+// A recorded series is what it is. (CLI11's excludes() would fill the help with names.)
+void RefuseOthers(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    const bool named = !option->get_lnames().empty() && option->count() > 0;
+    if (named && option->get_name() != "--evaluate-only") {
+      throw InputError(option->get_name(), "does not apply with --evaluate-only");
+    }
+  }
+}
+
 }  // namespace
 
 void AddEmvaCommand(CLI::App& program, int& exit_code) {
@@ -91,11 +123,11 @@ void AddEmvaCommand(CLI::App& program, int& exit_code) {
   command->add_option("DIR", arguments->folder, "Folder for the series and its figures")
       ->required();
   command->add_flag("--evaluate-only", arguments->evaluate_only,
-                    "Evaluate the series that is in DIR");
+                    "Evaluate the series that is in DIR; no other option applies then");
   command->add_option("--output-bits", arguments->output_bits, "Bits of the frames")
       ->capture_default_str();
   command->add_option("--gain", arguments->simulation.gain, "Analogue gain")
-      ->check(CLI::PositiveNumber)
+      ->check(Positive())
       ->capture_default_str();
   command->add_option("--wavelength-nm", arguments->simulation.wavelength_nm, "Of the light")
       ->capture_default_str();
@@ -110,10 +142,11 @@ void AddEmvaCommand(CLI::App& program, int& exit_code) {
   command->add_option("--width-px", arguments->width_px, "Of the frames")->capture_default_str();
   command->add_option("--height-px", arguments->height_px, "Of the frames")->capture_default_str();
   command->add_option("--set", arguments->set,
-                      "FACTOR=VALUE, a stereo_… factor; may be given several times");
+                      "FACTOR=VALUE, a stereo_… factor of the sensor itself; several times");
   command->add_option("--seed", arguments->seed, "Of the camera and its noise")
       ->capture_default_str();
-  command->callback([arguments, &exit_code] {
+  command->callback([command, arguments, &exit_code] {
+    if (arguments->evaluate_only) RefuseOthers(*command);
     Emva(*arguments);
     exit_code = kDone;
   });

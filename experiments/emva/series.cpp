@@ -55,12 +55,17 @@ class DescriptorReader {
     std::vector<double> values;
     for (std::string word; stream >> word;) {
       const auto value = NumberIn(word);
-      if (!value || *value < 0.0) return Fault(fmt::format("'{}' is not a positive number", word));
+      if (!value || *value < 0.0) {
+        if (key == "b" || key == "d") in_faulty_set_ = true;
+        return Fault(fmt::format("'{}' is not a positive number", word));
+      }
       values.push_back(*value);
     }
     if (key == "n" && values.size() == 3) return ReadFormat(values);
     if (key == "b" && values.size() == 2) return StartSet(values[0], values[1]);
     if (key == "d" && values.size() == 1) return StartSet(values[0], 0.0);
+    // Most likely an exposure: the files that follow are its own, not the one's before.
+    in_faulty_set_ = true;
     Fault("is none of: n bits width height; b exposure_ns photons; d exposure_ns; i file");
   }
 
@@ -79,12 +84,14 @@ class DescriptorReader {
     series_.sets.push_back(
         {.exposure_s = exposure_ns * kNanosecond, .photons = photons, .frames = {}});
     set_lines_.push_back(line_);
+    in_faulty_set_ = false;
   }
 
   void ReadFrame(std::istringstream& stream) {
     std::string file;
     std::getline(stream >> std::ws, file);
     while (!file.empty() && (file.back() == '\r' || file.back() == ' ')) file.pop_back();
+    if (in_faulty_set_) return;  // That was reported.
     if (series_.sets.empty()) return Fault("names a file before any exposure");
     std::replace(file.begin(), file.end(), '\\', '/');
     series_.sets.back().frames.push_back(file);
@@ -110,6 +117,7 @@ class DescriptorReader {
   int line_ = 0;
   Series series_;
   std::vector<int> set_lines_;
+  bool in_faulty_set_ = false;  ///< Since the last line that should have begun one.
   std::vector<InputFault> faults_;
 };
 
