@@ -37,7 +37,7 @@ SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchin
       depth_size_(depth.width_px(), depth.height_px()),
       rays_(InfraredCamera(depth, scale)),
       pattern_(infrared.dot_sigma_px),
-      matcher_(matching, pattern_, {rays_.width_px(), rays_.height_px()},
+      matcher_(matching, infrared, pattern_, {rays_.width_px(), rays_.height_px()},
                std::max(0.0, Disparity(range, rays_.camera(), range.farthest_m) - kRoom_px),
                Disparity(range, rays_.camera(), range.nearest_m) + kRoom_px) {}
 

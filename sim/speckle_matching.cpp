@@ -134,13 +134,19 @@ void Validate(const SpeckleMatchingOptions& o) {
   demand(o.least_correlation > 0.0 && o.least_correlation < 1.0,
          "the least correlation must lie between 0 and 1");
   demand(o.least_lead >= 0.0 && o.least_lead < 1.0, "the least lead must lie between 0 and 1");
+  demand(o.most_unexplained >= 0.0, "the most that is unexplained must not be negative");
+  demand(o.most_off_centre > 0.0 && o.most_off_centre <= 0.5,
+         "evidence may be off centre by up to half of the window's width, but not by nothing");
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 
 SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
-                               const GatheredPattern& pattern, cv::Size image, double least_px,
-                               double most_px)
+                               const InfraredOptions& infrared, const GatheredPattern& pattern,
+                               cv::Size image, double least_px, double most_px)
     : options_((Validate(options), options)),
+      // Rounding to whole numbers is noise too.
+      dark_variance_(infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0),
+      shot_noise_dn_(infrared.shot_noise_dn),
       size_(image),
       least_(static_cast<int>(std::floor(least_px))),
       most_(static_cast<int>(std::ceil(most_px))) {
@@ -214,8 +220,13 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
     }
     for (int i = 0; i < inside; ++i) {
       matches.correlation(v, i + reach_u) = std::max(best.score[i], -1.0f);
-      if (const auto step = Accept(best, i)) {
-        matches.disparity_px(v, i + reach_u) = static_cast<float>(least_) + 0.5f * *step;
+      const auto step = Accept(best, i);
+      if (!step) continue;
+      const cv::Point pixel(i + reach_u, v);
+      const double mean = static_cast<double>(sums(pixel)) / static_cast<double>(pixels);
+      if (IsWhole(best.score[i], mean, static_cast<double>(inverse_spread(pixel))) ||
+          IsCentred(grey, pixel, mean, static_cast<int>(best.step[i]))) {
+        matches.disparity_px(pixel) = static_cast<float>(least_) + 0.5f * *step;
       }
     }
   }
@@ -237,6 +248,48 @@ std::optional<float> SpeckleMatcher::Accept(const Best& best, int i) const {
   const float right = std::log(after / score);
   const float bend = left + right;
   return best.step[i] + (bend < 0.0f ? 0.5f * (left - right) / bend : 0.0f);
+}
+
+// With a window's variance V, the match explains ρ² V and leaves (1 - ρ²) V, of which the noise is
+// a part.
+bool SpeckleMatcher::IsWhole(float correlation, double mean, double inverse_spread) const {
+  const double pixels = options_.window_width_px * options_.window_height_px;
+  const double variance = std::pow(1.0 / (pixels * inverse_spread), 2);
+  const double explained = variance * std::pow(static_cast<double>(correlation), 2);
+  const double noise = dark_variance_ + shot_noise_dn_ * mean;
+  return variance - explained - noise <= options_.most_unexplained * explained;
+}
+
+// The evidence in column x of the window is its part of the covariance; if all dots are there, it
+// is in proportion to that column's part of the pattern's variance.
+bool SpeckleMatcher::IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean,
+                               int step) const {
+  const int reach_u = options_.window_width_px / 2;
+  const int reach_v = options_.window_height_px / 2;
+  const Phase& phase = phases_[static_cast<size_t>(step % 2)];
+  const int shift = most_ - least_ - step / 2;
+  const double pixels = options_.window_width_px * options_.window_height_px;
+  const double pattern_mean = phase.sums(pixel.y, pixel.x + shift) / pixels;
+  double evidence = 0.0;
+  double evidence_moment = 0.0;
+  double whole = 0.0;
+  double whole_moment = 0.0;
+  for (int x = -reach_u; x <= reach_u; ++x) {
+    double products = 0.0;
+    double squares = 0.0;
+    for (int y = -reach_v; y <= reach_v; ++y) {
+      const double r = phase.values(pixel.y + y, pixel.x + x + shift) - pattern_mean;
+      products += (image(pixel.y + y, pixel.x + x) - mean) * r;
+      squares += r * r;
+    }
+    evidence += products;
+    evidence_moment += products * x;
+    whole += squares;
+    whole_moment += squares * x;
+  }
+  if (evidence <= 0.0 || whole <= 0.0) return false;
+  return std::abs(evidence_moment / evidence - whole_moment / whole) <=
+         options_.most_off_centre * options_.window_width_px;
 }
 
 }  // namespace fenestra

@@ -18,6 +18,14 @@ struct SpeckleMatchingOptions {
   double least_correlation = 0.5;
   /// And if no other place more than a pixel away comes so near to it. Chosen.
   double least_lead = 0.15;
+  /// And if what it leaves unexplained, besides the noise, is no more than this share of what it
+  /// explains: all dots of the window are there. Chosen, above what laser speckle leaves.
+  double most_unexplained = 0.3;
+  /// Or else if the centre of its evidence lies within this share of the window's width from where
+  /// that of the whole pattern would lie. A window that a shadow cuts off has its evidence in what
+  /// is left of it, a quarter of the width aside when that is one half: with 1/4, a surface ends
+  /// where its window's centre leaves it, and shadows are as wide as they are.
+  double most_off_centre = 0.25;
 };
 
 /// Throws InputError with all faults.
@@ -38,8 +46,9 @@ struct SpeckleMatches {
 class SpeckleMatcher {
  public:
   /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
-  SpeckleMatcher(const SpeckleMatchingOptions& options, const GatheredPattern& pattern,
-                 cv::Size image, double least_px, double most_px);
+  /// `infrared`: the noise that is known of the image.
+  SpeckleMatcher(const SpeckleMatchingOptions& options, const InfraredOptions& infrared,
+                 const GatheredPattern& pattern, cv::Size image, double least_px, double most_px);
 
   /// `image`: 10 bits. Windows that leave it are not matched.
   SpeckleMatches Match(const cv::Mat1w& image) const;
@@ -57,6 +66,11 @@ class SpeckleMatcher {
  private:
   /// The step, with its fraction, at which pixel i of a row matches.
   std::optional<float> Accept(const Best& best, int i) const;
+  /// Whether all dots of a pixel's window are there, as far as noise lets tell; `mean` and
+  /// `inverse_spread` are of the image's window.
+  bool IsWhole(float correlation, double mean, double inverse_spread) const;
+  /// Whether the match at this step rests on dots around the pixel rather than on one side of it.
+  bool IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean, int step) const;
 
   /// The pattern displaced by half a pixel (phase 1) or not (phase 0), and its windows' statistics;
   /// column i is the pattern's column i - most.
@@ -67,6 +81,8 @@ class SpeckleMatcher {
   };
 
   SpeckleMatchingOptions options_;
+  double dark_variance_;
+  double shot_noise_dn_;
   cv::Size size_;
   int least_;
   int most_;
