@@ -26,6 +26,51 @@ std::vector<float> Normals(const RandomStream& stream, size_t count) {
   return values;
 }
 
+// What a pixel would get of dots and of ambient light [DN] if all of it saw what one ray sees.
+struct Ray {
+  const AovImages& aovs;
+  cv::Point place;  // In aovs.
+  Eigen::Vector3d direction;
+};
+cv::Vec2f LightAlong(const InfraredOptions& o, const GatheredPattern& pattern, const Ray& ray,
+                     cv::Point pixel, double fx_px, const Eigen::Vector3d& p_CP) {
+  const InfraredLight light = InfraredLightAt(o, ray.aovs, ray.place, ray.direction, p_CP);
+  double dots_dn = 0.0;
+  if (light.dot_dn > 0.0) {
+    const double disparity_px = fx_px * p_CP.x() / ray.aovs.depth_m(ray.place);
+    dots_dn = light.dot_dn * static_cast<double>(pattern.At(pixel.x - disparity_px, pixel.y));
+  }
+  return {static_cast<float>(dots_dn), static_cast<float>(light.ambient_dn)};
+}
+
+// Light of dots and ambient light at each pixel [DN].
+cv::Mat2f GatheredLight(const InfraredOptions& o, const GatheredPattern& pattern,
+                        const InfraredRays& rays, const InfraredView& view,
+                        const Eigen::Vector3d& p_CP) {
+  const double fx_px = rays.camera().parameters().fx_px;
+  cv::Mat2f light(rays.size());
+  for (int v = 0; v < light.rows; ++v) {
+    for (int u = 0; u < light.cols; ++u) {
+      light(v, u) =
+          LightAlong(o, pattern, {view.aovs, {u, v}, rays.RayAt(u, v)}, {u, v}, fx_px, p_CP);
+    }
+  }
+  for (const PixelParts& parts : view.parts) {
+    for (size_t i = 0; i < parts.pixels.size(); ++i) {
+      const cv::Point pixel = parts.pixels[i];
+      cv::Vec2f sum(0.0f, 0.0f);
+      for (int part = 0; part < PixelParts::kPerPixel; ++part) {
+        const Eigen::Vector2d offset = PixelParts::OffsetOf(part);
+        const Ray ray{parts.aovs, parts.PlaceOf(i, part),
+                      rays.RayAt(pixel.x + offset.x(), pixel.y + offset.y())};
+        sum += LightAlong(o, pattern, ray, pixel, fx_px, p_CP);
+      }
+      light(pixel) = sum / static_cast<float>(PixelParts::kPerPixel);
+    }
+  }
+  return light;
+}
+
 }  // namespace
 
 void Validate(const InfraredOptions& o) {
@@ -100,26 +145,22 @@ InfraredLight InfraredLightAt(const InfraredOptions& o, const AovImages& aovs, c
 }
 
 cv::Mat1w InfraredImage(const InfraredOptions& o, const GatheredPattern& pattern,
-                        const InfraredView& view, const RandomStream& surface,
+                        const InfraredRays& rays, const InfraredView& view,
+                        const Eigen::Vector3d& p_CP, const RandomStream& surface,
                         const RandomStream& frame) {
-  const cv::Size size = view.aovs.depth_m.size();
+  const cv::Size size = rays.size();
   const auto count = static_cast<size_t>(size.area());
   const std::vector<float> speckle = Normals(surface, count);
   const std::vector<float> noise = Normals(frame, count);
-  const CameraParameters& k = view.camera.parameters();
-  const Eigen::Vector3d p_CP(view.baseline_m, 0.0, 0.0);
+  const cv::Mat2f light = GatheredLight(o, pattern, rays, view, p_CP);
   cv::Mat1w image(size);
   size_t i = 0;
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u, ++i) {
-      const Eigen::Vector3d ray((u - k.cx_px) / k.fx_px, (v - k.cy_px) / k.fy_px, 1.0);
-      const InfraredLight light = InfraredLightAt(o, view.aovs, {u, v}, ray, p_CP);
-      double dn = light.ambient_dn;
-      if (light.dot_dn > 0.0) {
-        const double disparity_px = k.fx_px * view.baseline_m / view.aovs.depth_m(v, u);
-        dn += light.dot_dn * static_cast<double>(pattern.At(u - disparity_px, v)) *
-              std::max(0.0, 1.0 + o.speckle_contrast * static_cast<double>(speckle[i]));
-      }
+      const cv::Vec2f& dots_and_ambient = light(v, u);
+      const double contrast = o.speckle_contrast * static_cast<double>(speckle[i]);
+      double dn = static_cast<double>(dots_and_ambient[0]) * std::max(0.0, 1.0 + contrast) +
+                  static_cast<double>(dots_and_ambient[1]);
       const double deviation = std::sqrt(o.dark_noise_dn * o.dark_noise_dn + o.shot_noise_dn * dn);
       dn += deviation * static_cast<double>(noise[i]);
       image(v, u) = static_cast<uint16_t>(std::lround(std::clamp(dn, 0.0, o.saturation_dn)));

@@ -3,9 +3,9 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-#include "core/camera_model.h"
 #include "core/random_stream.h"
 #include "renderers/ray_caster.h"
+#include "sim/infrared_view.h"
 
 namespace fenestra {
 
@@ -69,16 +69,12 @@ InfraredLight InfraredLightAt(const InfraredOptions& options, const AovImages& a
                               cv::Point pixel, const Eigen::Vector3d& ray,
                               const Eigen::Vector3d& p_CP);
 
-/// The 10-bit image: at a surface of depth z a pixel in column u shows the pattern at u - f b/z.
-/// `camera`: a pinhole of the image's size. `surface`: tells this view's laser speckle from
-/// others'; `frame`: this frame's noise.
-struct InfraredView {
-  const AovImages& aovs;
-  const CameraModel& camera;
-  double baseline_m;
-};
+/// The 10-bit image: at a surface of depth z a pixel in column u shows the pattern at u - f b/z. A
+/// pixel that an outline or a shadow crosses gets the mean of its parts' light. p_CP: the
+/// projector. `surface`: tells this view's laser speckle from others'; `frame`: this frame's noise.
 cv::Mat1w InfraredImage(const InfraredOptions& options, const GatheredPattern& pattern,
-                        const InfraredView& view, const RandomStream& surface,
+                        const InfraredRays& rays, const InfraredView& view,
+                        const Eigen::Vector3d& p_CP, const RandomStream& surface,
                         const RandomStream& frame);
 
 }  // namespace fenestra

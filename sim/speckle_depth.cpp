@@ -32,45 +32,38 @@ SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchin
     : infrared_((Validate(infrared), infrared)),
       matching_(matching),
       range_(range),
-      baseline_m_(baseline_m),
+      p_CP_(baseline_m, 0.0, 0.0),
       scale_(scale),
       depth_size_(depth.width_px(), depth.height_px()),
       rays_(InfraredCamera(depth, scale)),
       pattern_(infrared.dot_sigma_px),
-      matcher_(matching, infrared, pattern_, {rays_.width_px(), rays_.height_px()},
+      matcher_(matching, infrared, pattern_, rays_.size(),
                std::max(0.0, Disparity(range, rays_.camera(), range.farthest_m) - kRoom_px),
                Disparity(range, rays_.camera(), range.nearest_m) + kRoom_px) {}
-
-AovImages SpeckleDepth::CastAovs(const RayCaster& caster, const Lighting& lighting,
-                                 const Pose& X_WB) const {
-  return caster.CastAovs(rays_, X_WB, lighting,
-                         {.offsets_px = {}, .p_WP = X_WB * Eigen::Vector3d(baseline_m_, 0.0, 0.0)});
-}
 
 cv::Mat1w SpeckleDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
                                         const Pose& X_WB, const RandomStream& shot,
                                         const RandomStream& frame) const {
-  const AovImages aovs = CastAovs(caster, lighting, X_WB);
-  return InfraredImage(infrared_, pattern_,
-                       {.aovs = aovs, .camera = rays_.camera(), .baseline_m = baseline_m_},
-                       shot.Child("laser_speckle"), frame.Child("infrared_noise"));
+  const InfraredView view = rays_.Cast(caster, X_WB, lighting, p_CP_);
+  return InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
+                       frame.Child("infrared_noise"));
 }
 
 DepthFrame SpeckleDepth::Observe(const RayCaster& caster, const Lighting& lighting,
                                  const Pose& X_WB, double unit_m, const RandomStream& shot,
                                  const RandomStream& frame) const {
-  const AovImages aovs = CastAovs(caster, lighting, X_WB);
-  const cv::Mat1w infrared = InfraredImage(
-      infrared_, pattern_, {.aovs = aovs, .camera = rays_.camera(), .baseline_m = baseline_m_},
-      shot.Child("laser_speckle"), frame.Child("infrared_noise"));
+  const InfraredView view = rays_.Cast(caster, X_WB, lighting, p_CP_);
+  const cv::Mat1w infrared =
+      InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
+                    frame.Child("infrared_noise"));
   const SpeckleMatches matches = matcher_.Match(infrared);
-  const double to_640 = DisparityRange::kImageWidth / rays_.width_px();
+  const double to_640 = DisparityRange::kImageWidth / rays_.size().width;
   DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
                     .no_return = cv::Mat1b::zeros(depth_size_)};
   for (int v = 0; v < depth_size_.height; ++v) {
     for (int u = 0; u < depth_size_.width; ++u) {
       const cv::Point pixel(scale_ * u, scale_ * v);
-      NoReturn reason = Reason(aovs, pixel, matches);
+      NoReturn reason = Reason(view.aovs, pixel, matches);
       if (reason == NoReturn::kNone) {
         const double z_m = range_.Depth(static_cast<double>(matches.disparity_px(pixel)) * to_640);
         if (z_m == 0.0) reason = NoReturn::kRange;
@@ -90,9 +83,8 @@ NoReturn SpeckleDepth::Reason(const AovImages& aovs, cv::Point pixel,
   if (matches.correlation(pixel) <= -1.0f) return NoReturn::kBorder;
   if (!range_.Contains(aovs.depth_m(pixel))) return NoReturn::kRange;
   if (aovs.sees_point(pixel) == 0) return NoReturn::kShadow;
-  const CameraParameters& k = rays_.camera().parameters();
-  const Eigen::Vector3d ray((pixel.x - k.cx_px) / k.fx_px, (pixel.y - k.cy_px) / k.fy_px, 1.0);
-  const InfraredLight light = InfraredLightAt(infrared_, aovs, pixel, ray, {baseline_m_, 0.0, 0.0});
+  const Eigen::Vector3d ray = rays_.RayAt(pixel.x, pixel.y);
+  const InfraredLight light = InfraredLightAt(infrared_, aovs, pixel, ray, p_CP_);
   if (light.ambient_dn >= infrared_.saturation_dn) return NoReturn::kSaturated;
   // A window that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast,
   // which is a third of a dot's peak.

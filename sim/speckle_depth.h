@@ -4,6 +4,7 @@
 #include "sim/depth_frame.h"
 #include "sim/disparity_range.h"
 #include "sim/infrared_image.h"
+#include "sim/infrared_view.h"
 #include "sim/speckle_matching.h"
 
 namespace fenestra {
@@ -26,17 +27,16 @@ class SpeckleDepth {
                             const RandomStream& shot, const RandomStream& frame) const;
 
  private:
-  AovImages CastAovs(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
   /// Why the infra-red image's pixel has no match.
   NoReturn Reason(const AovImages& aovs, cv::Point pixel, const SpeckleMatches& matches) const;
 
   InfraredOptions infrared_;
   SpeckleMatchingOptions matching_;
   DisparityRange range_;
-  double baseline_m_;
+  Eigen::Vector3d p_CP_;
   int scale_;
   cv::Size depth_size_;
-  RayGrid rays_;
+  InfraredRays rays_;
   GatheredPattern pattern_;
   SpeckleMatcher matcher_;
 };
