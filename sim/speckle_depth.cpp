@@ -17,11 +17,14 @@ CameraModel InfraredCamera(const CameraModel& depth, int scale) {
   return CameraModel(parameters);
 }
 
-// Disparities in the infra-red image [px], with room for noise and for the parabola's neighbours.
-constexpr double kRoom_px = 2.0;
-
-double Disparity(const DisparityRange& range, const CameraModel& infrared, double z_m) {
-  return range.focal_times_baseline / z_m * infrared.width_px() / DisparityRange::kImageWidth;
+// The largest disparity that is searched, in the infra-red image [px], with room for noise and for
+// the parabola's neighbours.
+double SearchEnd(const SpeckleMatchingOptions& matching, const DisparityRange& range,
+                 int width_px) {
+  constexpr double kRoom_px = 2.0;
+  const double scale = width_px / DisparityRange::kImageWidth;
+  return std::max(matching.search_px * scale,
+                  range.focal_times_baseline / range.nearest_m * scale + kRoom_px);
 }
 
 }  // namespace
@@ -37,9 +40,8 @@ SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchin
       depth_size_(depth.width_px(), depth.height_px()),
       rays_(InfraredCamera(depth, scale)),
       pattern_(infrared.dot_sigma_px),
-      matcher_(matching, infrared, pattern_, rays_.size(),
-               std::max(0.0, Disparity(range, rays_.camera(), range.farthest_m) - kRoom_px),
-               Disparity(range, rays_.camera(), range.nearest_m) + kRoom_px) {}
+      matcher_(matching, infrared, pattern_, rays_.size(), 0.0,
+               SearchEnd(matching, range, rays_.size().width)) {}
 
 cv::Mat1w SpeckleDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
                                         const Pose& X_WB, const RandomStream& shot,
@@ -56,7 +58,7 @@ DepthFrame SpeckleDepth::Observe(const RayCaster& caster, const Lighting& lighti
   const cv::Mat1w infrared =
       InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
                     frame.Child("infrared_noise"));
-  const SpeckleMatches matches = matcher_.Match(infrared);
+  const SpeckleMatches matches = matcher_.Match(infrared, scale_);
   const double to_640 = DisparityRange::kImageWidth / rays_.size().width;
   DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
                     .no_return = cv::Mat1b::zeros(depth_size_)};

@@ -131,6 +131,7 @@ void Validate(const SpeckleMatchingOptions& o) {
     demand(side >= 3 && side <= 15 && side % 2 == 1,
            "the window's sides must be odd numbers from 3 to 15 px");
   }
+  demand(o.search_px >= 1.0 && o.search_px <= 200.0, "the search must be over 1 to 200 px");
   demand(o.least_correlation > 0.0 && o.least_correlation < 1.0,
          "the least correlation must lie between 0 and 1");
   demand(o.least_lead >= 0.0 && o.least_lead < 1.0, "the least lead must lie between 0 and 1");
@@ -165,7 +166,8 @@ SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
   }
 }
 
-SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
+SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image, int row_step) const {
+  FENESTRA_CHECK(row_step >= 1, "rows are counted in positive steps");
   FENESTRA_CHECK(image.size() == size_, "the image must have the matcher's size");
   const int reach_u = options_.window_width_px / 2;
   const int reach_v = options_.window_height_px / 2;
@@ -204,6 +206,7 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
                     .after = memory[3],
                     .second = memory[4],
                     .last = memory[5]};
+    const bool is_wanted = v % row_step == 0;
     for (int k = 0; k <= steps; ++k) {
       const Phase& phase = phases_[k % 2];
       if (v > reach_v) {
@@ -211,6 +214,7 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
                  grey[v - reach_v - 1], pattern_row(k, phase.values, v - reach_v - 1), columns[k],
                  width);
       }
+      if (!is_wanted) continue;
       AddShifts(columns[k], 2 * reach_u + 1, products.data(), inside);
       const int shift = most_ - least_ - k / 2 + reach_u;
       Correlate(products.data(), pixels, sums[v] + reach_u, inverse_spread[v] + reach_u,
@@ -218,6 +222,7 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image) const {
       Update(scores.data(), static_cast<float>(k), best.score, best.step, best.before, best.after,
              best.second, best.last, inside);
     }
+    if (!is_wanted) continue;
     for (int i = 0; i < inside; ++i) {
       matches.correlation(v, i + reach_u) = std::max(best.score[i], -1.0f);
       const auto step = Accept(best, i);

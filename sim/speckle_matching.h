@@ -11,6 +11,10 @@ namespace fenestra {
 /// How the sensor finds its pattern in an infra-red image. Windows of 9 x 9 or 9 x 7 pixels, a
 /// search over 64 px and results in 1/8 px are what ROS kinect_calibration/technical infers.
 struct SpeckleMatchingOptions {
+  /// Disparities from that of infinite distance to this are searched, in pixels of a 640-wide
+  /// image, and farther if the nearest distance of the range demands it, as it does in near mode.
+  /// What is nearer or farther than the range is thus recognised, and not taken for something else.
+  double search_px = 64.0;
   int window_width_px = 9;   ///< Odd, 3 to 15.
   int window_height_px = 9;  ///< Odd, 3 to 15.
   /// A match counts if its correlation coefficient is at least this, of windows of 81 pixels chance
@@ -50,8 +54,9 @@ class SpeckleMatcher {
   SpeckleMatcher(const SpeckleMatchingOptions& options, const InfraredOptions& infrared,
                  const GatheredPattern& pattern, cv::Size image, double least_px, double most_px);
 
-  /// `image`: 10 bits. Windows that leave it are not matched.
-  SpeckleMatches Match(const cv::Mat1w& image) const;
+  /// `image`: 10 bits. Windows that leave it are not matched, nor are rows but every `row_step`th,
+  /// the first one among them.
+  SpeckleMatches Match(const cv::Mat1w& image, int row_step = 1) const;
 
   /// What is known of each pixel of a row while disparities are tried one after the other.
   struct Best {
