@@ -223,12 +223,13 @@ void AddRgbdDepth(Table& t) {
               "From the depth camera to the projector.")
       .Number("rgbd_disparity_step_px", FIELD(rgbd.disparity_step_px), {0.0, 10.0},
               "Quantum of the disparity.")
-      .Number("rgbd_disparity_noise_px", FIELD(rgbd.parametric.disparity_noise_px), {0.0, 10.0},
-              "Standard deviation of the disparity before quantisation.")
-      .Integer("rgbd_matching_window_px", FIELD(rgbd.parametric.window_px), {1, 31},
-               "Side of the window that is matched: its pixels share their noise.")
+      .Number("rgbd_fixed_disparity_noise_px", FIELD(rgbd.parametric.fixed_disparity_noise_px),
+              {0.0, 10.0}, "Of the disparity, the same in every frame of a view; parametric only.")
+      .Number("rgbd_temporal_disparity_noise_px",
+              FIELD(rgbd.parametric.temporal_disparity_noise_px), {0.0, 10.0},
+              "Of the disparity, where dots are as strong as their noise; parametric only.")
       .Number("rgbd_lateral_noise_px", FIELD(rgbd.parametric.lateral_noise_px), {0.0, 10.0},
-              "Lateral jitter of each depth pixel, standard deviation.")
+              "Of where outlines are seen, standard deviation; parametric only.")
       .Number("rgbd_dot_signal_dn", FIELD(rgbd.infrared.dot_signal_dn), {0.0, 1e6},
               "Of a dot on a surface of reflectance 0.8 at 1 m.")
       .Number("rgbd_dot_irradiance_w_m2", FIELD(rgbd.infrared.dot_irradiance), {1e-6, 1e6},
@@ -239,10 +240,6 @@ void AddRgbdDepth(Table& t) {
               "Variance of the infra-red image per DN of signal.")
       .Number("rgbd_saturation_dn", FIELD(rgbd.infrared.saturation_dn), {1.0, 1023.0},
               "Full scale of the infra-red image.")
-      .Number("rgbd_matching_snr", FIELD(rgbd.parametric.least_snr), {0.0, 1e3},
-              "Signal to noise of a block that is just matched.")
-      .Number("rgbd_grazing_limit_deg", FIELD(rgbd.parametric.grazing_limit_rad),
-              {1.0, 89.9, kDegree}, "Angle of incidence beyond which there is no return.")
       .Number("rgbd_filter_width_nm", FIELD(rgbd.infrared.filter_width_nm), {0.1, 1e3},
               "Full width of the infra-red filter.")
       .Choice("rgbd_depth_model", FIELD(rgbd.depth_model), {"parametric", "speckle"},
@@ -252,17 +249,23 @@ void AddRgbdDepth(Table& t) {
       .Integer("rgbd_averaged_frames", FIELD(rgbd.averaged_frames), {1, 1000},
                "Depth images that are averaged, each with noise of its own.")
       .Number("rgbd_dot_sigma_px", FIELD(rgbd.infrared.dot_sigma_px), {0.1, 1.0},
-              "Spread of a dot in the infra-red image; speckle only.")
+              "Spread of a dot in the infra-red image.")
       .Number("rgbd_speckle_contrast", FIELD(rgbd.infrared.speckle_contrast), {0.0, 1.0},
-              "Of the laser's speckle in a pixel; speckle only.")
-      .Integer("rgbd_speckle_window_width_px", FIELD(rgbd.speckle.window_width_px), {3, 15},
-               "Of the window that is matched; odd; speckle only.")
-      .Integer("rgbd_speckle_window_height_px", FIELD(rgbd.speckle.window_height_px), {3, 15},
-               "Of the window that is matched; odd; speckle only.")
-      .Number("rgbd_least_correlation", FIELD(rgbd.speckle.least_correlation), {0.01, 0.99},
-              "Of a window that counts as matched; speckle only.")
-      .Number("rgbd_least_lead", FIELD(rgbd.speckle.least_lead), {0.0, 0.99},
-              "Of a match over the next best one; speckle only.");
+              "Of the laser's speckle in a pixel.")
+      .Integer("rgbd_matching_window_width_px", FIELD(rgbd.matching.window_width_px), {3, 15},
+               "Of the window that is matched; odd.")
+      .Integer("rgbd_matching_window_height_px", FIELD(rgbd.matching.window_height_px), {3, 15},
+               "Of the window that is matched; odd.")
+      .Number("rgbd_least_correlation", FIELD(rgbd.matching.least_correlation), {0.01, 0.99},
+              "Of a window that counts as matched.")
+      .Number("rgbd_least_lead", FIELD(rgbd.matching.least_lead), {0.0, 0.99},
+              "Of a match over the next best one.")
+      .Number("rgbd_most_unexplained", FIELD(rgbd.matching.most_unexplained), {0.0, 100.0},
+              "Of a window, besides noise, as a share of what the match explains.")
+      .Number("rgbd_most_off_centre", FIELD(rgbd.matching.most_off_centre), {0.01, 0.5},
+              "Of the evidence of other windows, as a share of their width.")
+      .Number("rgbd_search_px", FIELD(rgbd.matching.search_px), {1.0, 200.0},
+              "Disparities that are tried, in a 640-wide image; speckle only.");
 }
 
 void AddRgbdColor(Table& t) {

@@ -121,6 +121,22 @@ float GatheredPattern::At(double column, int row) const {
   return sum;
 }
 
+PatternStatistics GatheredPattern::Statistics() const {
+  constexpr int kPhases = 8;
+  double sum = 0.0;
+  double sum2 = 0.0;
+  for (int row = 0; row < DotPattern::kTileHeight; ++row) {
+    for (int i = 0; i < kPhases * DotPattern::kTileWidth; ++i) {
+      const double value = static_cast<double>(At(static_cast<double>(i) / kPhases, row));
+      sum += value;
+      sum2 += value * value;
+    }
+  }
+  constexpr double kCount =
+      static_cast<double>(kPhases) * DotPattern::kTileWidth * DotPattern::kTileHeight;
+  return {sum / kCount, sum2 / kCount - std::pow(sum / kCount, 2)};
+}
+
 InfraredLight InfraredLightAt(const InfraredOptions& o, const AovImages& aovs, cv::Point pixel,
                               const Eigen::Vector3d& ray, const Eigen::Vector3d& p_CP) {
   const double z_m = aovs.depth_m(pixel);

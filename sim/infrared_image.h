@@ -38,6 +38,10 @@ void Validate(const InfraredOptions& options);
 
 /// The projector's pattern as pixels of the infra-red camera gather it: dots with a Gaussian
 /// spread, averaged over the pixel, relative to a dot that is centred on its pixel.
+struct PatternStatistics {
+  double mean;
+  double variance;
+};
 class GatheredPattern {
  public:
   explicit GatheredPattern(double dot_sigma_px);
@@ -45,6 +49,8 @@ class GatheredPattern {
   /// A pixel that is centred on this place of the pattern [cells]. Rows of pixels are rows of
   /// cells: camera and projector are rectified.
   float At(double column, int row) const;
+  /// Over all places.
+  PatternStatistics Statistics() const;
 
  private:
   static constexpr int kReach = 2;

@@ -8,7 +8,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
-#include "sim/dot_matching.h"
 #include "sim/srgb.h"
 
 namespace fenestra {
@@ -35,29 +34,15 @@ DisparityRange RangeOf(const StructuredLightOptions& o) {
                             o.disparity_step_px, o.near_mode);
 }
 
-std::shared_ptr<const SpeckleDepth> MakeSpeckleDepth(const StructuredLightOptions& o,
-                                                     const CameraModel& depth) {
-  if (o.depth_model != DepthModel::kSpeckle) return nullptr;
-  return std::make_shared<const SpeckleDepth>(o.infrared, o.speckle, depth,
-                                              o.infrared_width_px / o.depth_width_px,
-                                              o.projector_baseline_m, RangeOf(o));
-}
-
-cv::Mat1f Normals(const RandomStream& stream, cv::Size size) {
-  cv::Mat1f values(size);
-  stream.FillNormals({values.ptr<float>(), values.total()});
-  return values;
-}
-
-// Standard normal at every pixel, but equal to white noise averaged over the window that
-// neighbouring pixels share.
-cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, int window_px) {
-  const int reach = window_px / 2;
-  const cv::Mat1f white = Normals(stream, {size.width + 2 * reach, size.height + 2 * reach});
-  cv::Mat1f sums;
-  const int side = 2 * reach + 1;
-  cv::boxFilter(white, sums, CV_32F, {side, side}, {-1, -1}, false);
-  return sums(cv::Rect({reach, reach}, size)) / static_cast<float>(side);
+std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const SpeckleDepth>>
+MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
+  if (o.depth_model == DepthModel::kSpeckle) {
+    return std::make_shared<const SpeckleDepth>(o.infrared, o.matching, depth,
+                                                o.infrared_width_px / o.depth_width_px,
+                                                o.projector_baseline_m, RangeOf(o));
+  }
+  return std::make_shared<const ParametricDepth>(o.infrared, o.parametric, o.matching, depth,
+                                                 o.projector_baseline_m, RangeOf(o));
 }
 
 }  // namespace
@@ -82,7 +67,7 @@ void Validate(const StructuredLightOptions& o) {
   if (!faults.empty()) throw InputError(std::move(faults));
   Validate(o.infrared);
   Validate(o.parametric);
-  Validate(o.speckle);
+  Validate(o.matching);
 }
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
@@ -92,7 +77,7 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
                .X_KD = DepthToColor(options)},
       depth_rays_(nominal_.depth),
       color_rays_(nominal_.color),
-      speckle_depth_(MakeSpeckleDepth(options, nominal_.depth)),
+      depth_model_(MakeDepthModel(options, nominal_.depth)),
       color_illumination_(RelativeIllumination(color_rays_, options.color_lens)),
       // One fixed pattern: all sensors of a study are the same unit.
       color_sensor_(options.color_sensor, {options.color_width_px, options.color_height_px},
@@ -130,53 +115,11 @@ DepthFrame StructuredLightSensor::ObserveDepth(const RayCaster& caster, const Li
 DepthFrame StructuredLightSensor::OneDepthFrame(const RayCaster& caster, const Lighting& lighting,
                                                 const Pose& X_WB, const RandomStream& shot,
                                                 const RandomStream& frame) const {
-  if (speckle_depth_) {
-    return speckle_depth_->Observe(caster, lighting, X_WB, nominal_.depth_unit_m, shot, frame);
-  }
-  return ParametricFrame(caster, lighting, X_WB, frame);
-}
-
-DepthFrame StructuredLightSensor::ParametricFrame(const RayCaster& caster, const Lighting& lighting,
-                                                  const Pose& X_WB,
-                                                  const RandomStream& frame_stream) const {
-  const cv::Size size(nominal_.depth.width_px(), nominal_.depth.height_px());
-  const double matching_scale = size.width / DisparityRange::kImageWidth;
-
-  // Lateral noise: the window's centre of evidence is not the pixel's centre.
-  AovOptions aov_options{.offsets_px = cv::Mat2f(size),
-                         .p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0)};
-  const std::array<cv::Mat1f, 2> jitter = {Normals(frame_stream.Child("lateral_u"), size),
-                                           Normals(frame_stream.Child("lateral_v"), size)};
-  cv::merge(jitter.data(), 2, aov_options.offsets_px);
-  aov_options.offsets_px *= options_.parametric.lateral_noise_px * matching_scale;
-  const AovImages aovs = caster.CastAovs(depth_rays_, X_WB, lighting, aov_options);
-
-  const int window_px =
-      std::max(1, static_cast<int>(std::lround(options_.parametric.window_px * matching_scale)));
-  const cv::Mat1f disparity_noise = WindowNoise(frame_stream.Child("disparity"), size, window_px);
-  const cv::Mat1f evidence_noise = WindowNoise(frame_stream.Child("evidence"), size, window_px);
-
-  const Eigen::Vector3d p_DP(options_.projector_baseline_m, 0.0, 0.0);
-  const DotMatching matching(options_.parametric, options_.infrared, RangeOf(options_));
-  DepthFrame frame{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = nominal_.depth_unit_m},
-                   .no_return = cv::Mat1b::zeros(size)};
-  for (int v = 0; v < size.height; ++v) {
-    for (int u = 0; u < size.width; ++u) {
-      const cv::Vec2f offset = aov_options.offsets_px(v, u);
-      const auto ray = nominal_.depth.UnprojectRay({u + offset[0], v + offset[1]});
-      const cv::Vec3f& n = aovs.normal_C(v, u);
-      const LitSurface surface{
-          .z_m = aovs.depth_m(v, u),
-          .normal_C = {n[0], n[1], n[2]},
-          .sees_projector = aovs.sees_point(v, u) != 0,
-          .light = InfraredLightAt(options_.infrared, aovs, {u, v}, *ray, p_DP)};
-      const DepthReading reading =
-          matching.Read(surface, *ray, evidence_noise(v, u), disparity_noise(v, u));
-      frame.no_return(v, u) = static_cast<unsigned char>(reading.no_return);
-      frame.depth.raw(v, u) = static_cast<uint16_t>(std::lround(reading.z_m / frame.depth.unit_m));
-    }
-  }
-  return frame;
+  return std::visit(
+      [&](const auto& model) {
+        return model->Observe(caster, lighting, X_WB, nominal_.depth_unit_m, shot, frame);
+      },
+      depth_model_);
 }
 
 cv::Mat3b StructuredLightSensor::ObserveColor(const RayCaster& caster, const Lighting& lighting,

@@ -2,17 +2,18 @@
 
 #include <array>
 #include <memory>
+#include <variant>
 
 #include "core/calibration.h"
 #include "core/observation.h"
 #include "core/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/depth_frame.h"
-#include "sim/dot_matching.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"
 #include "sim/infrared_image.h"
 #include "sim/lens.h"
+#include "sim/parametric_depth.h"
 #include "sim/speckle_depth.h"
 #include "sim/truth_images.h"
 
@@ -20,7 +21,7 @@ namespace fenestra {
 
 /// How depth comes about.
 enum class DepthModel {
-  kParametric,  ///< Truth, noise and holes by formulae; see DotMatching. Fast.
+  kParametric,  ///< From what windows would hold, by formulae; see ParametricDepth. Fast.
   kSpeckle,     ///< An infra-red image of the dots, searched for the pattern; see SpeckleDepth.
 };
 
@@ -41,8 +42,8 @@ struct StructuredLightOptions {
 
   DepthModel depth_model = DepthModel::kParametric;
   InfraredOptions infrared;
-  ParametricMatchingOptions parametric;
-  SpeckleMatchingOptions speckle;
+  ParametricDepthOptions parametric;
+  SpeckleMatchingOptions matching;  ///< Of both models.
   /// Width of the infra-red image in which kSpeckle matches: a multiple of the depth image's. Depth
   /// pixels are those of every so many columns and rows.
   int infrared_width_px = 640;
@@ -103,8 +104,6 @@ class StructuredLightSensor {
  private:
   DepthFrame OneDepthFrame(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                            const RandomStream& shot, const RandomStream& frame) const;
-  DepthFrame ParametricFrame(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                             const RandomStream& frame) const;
   cv::Mat3b ObserveColor(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                          const RandomStream& shot) const;
   /// Fixed, or such that the encoded image's mean is color_mean_dn; B, G, R in electrons per
@@ -117,7 +116,8 @@ class StructuredLightSensor {
   RgbdCalibration nominal_;
   RayGrid depth_rays_;
   RayGrid color_rays_;
-  std::shared_ptr<const SpeckleDepth> speckle_depth_;  ///< With kSpeckle only.
+  std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const SpeckleDepth>>
+      depth_model_;
   cv::Mat1f color_illumination_;
   ImageSensor color_sensor_;
 };

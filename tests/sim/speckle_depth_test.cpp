@@ -190,7 +190,7 @@ TEST(SpeckleDepthTest, AShadowIsLeftOfTheForegroundAndAsWideAsGeometrySays) {
 
 TEST(SpeckleDepthTest, WithoutAskingForDotsAllAroundHolesAreTooNarrow) {
   StructuredLightOptions options = Speckle();
-  options.speckle.most_off_centre = 0.5;
+  options.matching.most_off_centre = 0.5;
   EXPECT_LT(HolesAroundAPlate(options, 1.5, 3.0).left_px, ShadowWidth(1.5, 3.0) - 1.0);
 }
 
@@ -230,6 +230,26 @@ TEST(SpeckleDepthTest, NothingIsSeenOutsideTheRange) {
   StructuredLightOptions near = Speckle();
   near.near_mode = true;
   EXPECT_GT(ValidShare(Seen(near, WhiteWall(), {.distance_m = 0.5})), 0.95);
+}
+
+TEST(SpeckleDepthTest, TheParametricModelIsLikeIt) {
+  const auto compare = [](double reflectance_830nm, double z_m) {
+    Scene scene = WhiteWall();
+    for (Material& material : scene.materials) {
+      material.reflectance_830nm = static_cast<float>(reflectance_830nm);
+    }
+    const Viewpoint viewpoint{.distance_m = z_m, .azimuth_rad = 0.02};
+    const DepthFrame speckle = Seen(Speckle(), scene, viewpoint);
+    const DepthFrame parametric = Seen({}, scene, viewpoint);
+    EXPECT_NEAR(ValidShare(parametric), ValidShare(speckle), 0.05)
+        << reflectance_830nm << " at " << z_m;
+    if (ValidShare(speckle) < 0.95) return;
+    EXPECT_NEAR(PlaneResidual(parametric) / PlaneResidual(speckle), 1.0, 0.2)
+        << reflectance_830nm << " at " << z_m;
+  };
+  for (const double z_m : {0.9, 1.4, 2.0, 3.0, 3.8}) compare(0.8, z_m);
+  for (const double z_m : {0.9, 1.4, 2.0}) compare(0.2, z_m);
+  for (const double z_m : {0.9, 1.4, 2.0, 3.0}) compare(0.05, z_m);
 }
 
 TEST(SpeckleDepthTest, NoPoseGivesDepthWhereNothingIs) {

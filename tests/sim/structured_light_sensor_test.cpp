@@ -42,7 +42,8 @@ DepthFrame Seen(const StructuredLightOptions& options, const Scene& scene,
 
 StructuredLightOptions Noiseless() {
   StructuredLightOptions options;
-  options.parametric.disparity_noise_px = 0.0;
+  options.parametric.fixed_disparity_noise_px = 0.0;
+  options.parametric.temporal_disparity_noise_px = 0.0;
   options.parametric.lateral_noise_px = 0.0;
   return options;
 }
