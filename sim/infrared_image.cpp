@@ -2,23 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "core/input_error.h"
-#include "sim/dot_pattern.h"
 
 namespace fenestra {
 namespace {
 
 // Landau's dot signal was fitted on a white wall.
 constexpr double kReferenceReflectance = 0.8;
-
-// The mean over a pixel, `offset` from a dot's centre, of a Gaussian of unit sum along one axis.
-double MeanOverPixel(double offset, double sigma_px) {
-  const double scale = 1.0 / (sigma_px * std::numbers::sqrt2);
-  return 0.5 * (std::erf((offset + 0.5) * scale) - std::erf((offset - 0.5) * scale));
-}
 
 std::vector<float> Normals(const RandomStream& stream, size_t count) {
   std::vector<float> values(count);
@@ -85,56 +77,6 @@ void Validate(const InfraredOptions& o) {
   demand(o.saturation_dn >= 1.0 && o.saturation_dn <= 1023.0,
          "saturation must lie between 1 and 1023 DN, of 10 bits");
   if (!faults.empty()) throw InputError(std::move(faults));
-}
-
-GatheredPattern::GatheredPattern(double dot_sigma_px) {
-  const double peak = MeanOverPixel(0.0, dot_sigma_px);
-  for (size_t i = 0; i < spread_.size(); ++i) {
-    const double offset = static_cast<double>(i) / kStepsPerCell - (kReach + 1);
-    spread_[i] = static_cast<float>(MeanOverPixel(offset, dot_sigma_px) / peak);
-  }
-  static const DotPattern pattern;
-  gathered_ = cv::Mat1f::zeros(DotPattern::kTileHeight, DotPattern::kTileWidth + 2 * kReach + 1);
-  for (int row = 0; row < gathered_.rows; ++row) {
-    for (int column = 0; column < gathered_.cols; ++column) {
-      for (int j = -kReach; j <= kReach; ++j) {
-        if (pattern.HasDot(column, row + j)) gathered_(row, column) += SpreadAt(j);
-      }
-    }
-  }
-}
-
-float GatheredPattern::SpreadAt(double offset) const {
-  return spread_[static_cast<size_t>(std::lround((offset + (kReach + 1)) * kStepsPerCell))];
-}
-
-float GatheredPattern::At(double column, int row) const {
-  const auto nearest = static_cast<int>(std::floor(column + 0.5));
-  const double offset = column - nearest;
-  int first = (nearest - kReach) % DotPattern::kTileWidth;
-  if (first < 0) first += DotPattern::kTileWidth;
-  int tile_row = row % DotPattern::kTileHeight;
-  if (tile_row < 0) tile_row += DotPattern::kTileHeight;
-  const float* cells = gathered_[tile_row] + first;
-  float sum = 0.0f;
-  for (int i = 0; i <= 2 * kReach; ++i) sum += SpreadAt(offset - (i - kReach)) * cells[i];
-  return sum;
-}
-
-PatternStatistics GatheredPattern::Statistics() const {
-  constexpr int kPhases = 8;
-  double sum = 0.0;
-  double sum2 = 0.0;
-  for (int row = 0; row < DotPattern::kTileHeight; ++row) {
-    for (int i = 0; i < kPhases * DotPattern::kTileWidth; ++i) {
-      const double value = static_cast<double>(At(static_cast<double>(i) / kPhases, row));
-      sum += value;
-      sum2 += value * value;
-    }
-  }
-  constexpr double kCount =
-      static_cast<double>(kPhases) * DotPattern::kTileWidth * DotPattern::kTileHeight;
-  return {sum / kCount, sum2 / kCount - std::pow(sum / kCount, 2)};
 }
 
 InfraredLight InfraredLightAt(const InfraredOptions& o, const AovImages& aovs, cv::Point pixel,

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <array>
 #include <opencv2/core.hpp>
 
 #include "core/random_stream.h"
 #include "renderers/ray_caster.h"
+#include "sim/gathered_pattern.h"
 #include "sim/infrared_view.h"
 
 namespace fenestra {
@@ -35,32 +35,6 @@ struct InfraredOptions {
 
 /// Throws InputError with all faults.
 void Validate(const InfraredOptions& options);
-
-/// The projector's pattern as pixels of the infra-red camera gather it: dots with a Gaussian
-/// spread, averaged over the pixel, relative to a dot that is centred on its pixel.
-struct PatternStatistics {
-  double mean;
-  double variance;
-};
-class GatheredPattern {
- public:
-  explicit GatheredPattern(double dot_sigma_px);
-
-  /// A pixel that is centred on this place of the pattern [cells]. Rows of pixels are rows of
-  /// cells: camera and projector are rectified.
-  float At(double column, int row) const;
-  /// Over all places.
-  PatternStatistics Statistics() const;
-
- private:
-  static constexpr int kReach = 2;
-  static constexpr int kStepsPerCell = 64;
-  float SpreadAt(double offset) const;
-
-  std::array<float, 2 * (kReach + 1) * kStepsPerCell + 2> spread_{};
-  /// Dots gathered along the columns; each row is continued by the tile's beginning.
-  cv::Mat1f gathered_;
-};
 
 /// What the infra-red camera receives at one pixel [DN]. Nothing where nothing is hit.
 struct InfraredLight {

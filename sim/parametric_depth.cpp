@@ -14,16 +14,6 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-// How much of each pixel a window of this width covers, from the outermost to the outermost.
-std::vector<float> Weights(double width_px) {
-  const int reach = static_cast<int>(std::ceil(0.5 * width_px - 0.5));
-  std::vector<float> weights;
-  for (int i = -reach; i <= reach; ++i) {
-    weights.push_back(static_cast<float>(std::clamp(0.5 * width_px - std::abs(i) + 0.5, 0.0, 1.0)));
-  }
-  return weights;
-}
-
 // Standard normal at every pixel, but equal to white noise averaged over the window that
 // neighbouring pixels share.
 cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, cv::Size window) {
@@ -36,8 +26,9 @@ cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, cv::Size window
          std::sqrt(static_cast<float>(window.area()));
 }
 
-float Squared(float x) {
-  return x * x;
+// The spread of a dot with that of a pixel.
+double SpreadOf(const InfraredOptions& infrared) {
+  return std::sqrt(infrared.dot_sigma_px * infrared.dot_sigma_px + 1.0 / 12.0);
 }
 
 }  // namespace
@@ -50,23 +41,15 @@ void Validate(const ParametricDepthOptions& o) {
   }
 }
 
-/// What depth pixels receive; disparities in pixels of a 640-wide image.
-struct ParametricDepth::Windows {
-  cv::Mat1f dots_dn;
-  cv::Mat1f ambient_dn;
-  cv::Mat1f disparity_px;  ///< NaN where nothing is hit.
-};
-
-/// Means over a window.
+/// A window with the pattern at one disparity.
 struct ParametricDepth::Match {
-  float correlation = 0.0f;
-  float evidence = 0.0f;       ///< S, in dots' DN.
-  float unexplained = 0.0f;    ///< Variance besides noise and S's.
-  float noise_dn = 0.0f;       ///< σ.
-  float strength2 = 0.0f;      ///< ⟨s²⟩.
+  float correlation = 0.0f;    ///< ρ
+  float variance = 0.0f;       ///< V [DN²]
+  float explained = 0.0f;      ///< ρ² V
+  float noise = 0.0f;          ///< σ²
+  float strength = 0.0f;       ///< √⟨s²⟩ [DN]
   float off_centre_px = 0.0f;  ///< Of the evidence, along the rows, in a 640-wide image.
   float disparity_px = 0.0f;   ///< Mean over the evidence.
-  cv::Point strongest;
 };
 
 ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
@@ -79,14 +62,24 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
       range_(range),
       p_CP_(baseline_m, 0.0, 0.0),
       rays_(depth),
-      pattern_(GatheredPattern(infrared.dot_sigma_px).Statistics()),
+      pattern_mean_(static_cast<float>(GatheredPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
-      weights_u_(Weights(matching.window_width_px / scale_)),
-      weights_v_(Weights(matching.window_height_px / scale_)) {}
+      windows_(matching.window_width_px / scale_, matching.window_height_px / scale_,
+               static_cast<double>(pattern_mean_), SpreadOf(infrared)) {
+  const GatheredPattern pattern(infrared.dot_sigma_px);
+  for (int i = 0; i < kPhases; ++i) {
+    const double offset = (i + 0.5) / kPhases;
+    // The search goes by half pixels.
+    const double step = std::round(2.0 * offset) / 2.0;
+    phases_[static_cast<size_t>(i)] = {
+        .variance = static_cast<float>(pattern.MomentsAt(offset).variance),
+        .match = static_cast<float>(pattern.Correlation(offset, step))};
+  }
+}
 
-ParametricDepth::Windows ParametricDepth::Gather(const AovImages& aovs) const {
+WindowLight ParametricDepth::LightOf(const AovImages& aovs) const {
   const cv::Size size = aovs.depth_m.size();
-  Windows windows{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
+  WindowLight windows{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
   const auto fb = static_cast<float>(range_.focal_times_baseline);
   const CameraParameters& k = rays_.camera().parameters();
   for (int v = 0; v < size.height; ++v) {
@@ -98,111 +91,75 @@ ParametricDepth::Windows ParametricDepth::Gather(const AovImages& aovs) const {
       windows.ambient_dn(v, u) = static_cast<float>(ambient_dn);
       windows.dots_dn(v, u) =
           static_cast<float>(std::min(light.dot_dn, infrared_.saturation_dn - ambient_dn));
-      windows.disparity_px(v, u) = fb / aovs.depth_m(v, u);
+      windows.disparity_px(v, u) =
+          std::isfinite(aovs.depth_m(v, u)) ? fb / aovs.depth_m(v, u) : WindowLight::kNoDisparity;
     }
   }
   return windows;
 }
 
-ParametricDepth::Match ParametricDepth::MatchAt(const Windows& windows, cv::Point pixel,
+ParametricDepth::Match ParametricDepth::MatchAt(const WindowEvidence& window,
                                                 float disparity_px) const {
-  const int reach_u = static_cast<int>(weights_u_.size()) / 2;
-  const int reach_v = static_cast<int>(weights_v_.size()) / 2;
-  const auto mean = static_cast<float>(pattern_.mean);
-  const auto variance = static_cast<float>(pattern_.variance);
-  const auto spread2 =
-      static_cast<float>(infrared_.dot_sigma_px * infrared_.dot_sigma_px + 1.0 / 12.0);
-  float weight_sum = 0.0f;
-  float strengths = 0.0f;
-  float strengths2 = 0.0f;
-  float ambient = 0.0f;
-  float smooth2 = 0.0f;
-  float evidence = 0.0f;
-  float moment = 0.0f;
-  float disparities = 0.0f;
-  float strongest = -1.0f;
   Match match;
-  for (int y = -reach_v; y <= reach_v; ++y) {
-    const int v = pixel.y + y;
-    if (v < 0 || v >= windows.dots_dn.rows) continue;
-    const float* dots = windows.dots_dn[v];
-    const float* lights = windows.ambient_dn[v];
-    const float* places = windows.disparity_px[v];
-    for (int x = -reach_u; x <= reach_u; ++x) {
-      const int u = pixel.x + x;
-      if (u < 0 || u >= windows.dots_dn.cols) continue;
-      const float weight = weights_u_[static_cast<size_t>(x + reach_u)] *
-                           weights_v_[static_cast<size_t>(y + reach_v)];
-      const float s = dots[u];
-      weight_sum += weight;
-      strengths += weight * s;
-      strengths2 += weight * s * s;
-      ambient += weight * lights[u];
-      smooth2 += weight * Squared(mean * s + lights[u]);
-      if (s <= 0.0f) continue;
-      if (s > strongest) {
-        strongest = s;
-        match.strongest = {u, v};
-      }
-      const float apart = places[u] - disparity_px;
-      const float fit = weight * s * std::exp(-apart * apart / (4.0f * spread2));
-      evidence += fit;
-      moment += fit * static_cast<float>(x);
-      disparities += fit * places[u];
-    }
-  }
-  if (evidence <= 0.0f) return match;
+  if (window.evidence <= 0.0f) return match;
+  const float fraction = disparity_px - std::floor(disparity_px);
+  const Phase& phase =
+      phases_[std::min(static_cast<size_t>(fraction * kPhases), phases_.size() - 1)];
   const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
-  match.evidence = evidence / weight_sum;
-  match.strength2 = strengths2 / weight_sum;
-  const float smooth_mean = (mean * strengths + ambient) / weight_sum;
-  const float smooth_variance = std::max(0.0f, smooth2 / weight_sum - smooth_mean * smooth_mean);
   const auto dark_variance =
       static_cast<float>(infrared_.dark_noise_dn * infrared_.dark_noise_dn + 1.0 / 12.0);
-  const float noise_variance =
-      dark_variance + static_cast<float>(infrared_.shot_noise_dn) * smooth_mean;
-  const float signal_variance =
-      (variance + c2 * (variance + mean * mean)) * match.strength2 + smooth_variance;
-  const float explained = variance * match.evidence * match.evidence;
-  match.noise_dn = std::sqrt(noise_variance);
-  match.unexplained = signal_variance - explained;
-  match.correlation = std::sqrt(explained / (signal_variance + noise_variance));
-  match.off_centre_px = static_cast<float>(scale_) * moment / evidence;
-  match.disparity_px = disparities / evidence;
+  const float smooth = pattern_mean_ * window.dots + window.ambient;
+  match.noise = dark_variance + static_cast<float>(infrared_.shot_noise_dn) * smooth;
+  match.variance =
+      (phase.variance + c2 * (phase.variance + pattern_mean_ * pattern_mean_)) * window.dots2 +
+      std::max(0.0f, window.smooth2 - smooth * smooth) + match.noise;
+  const float signal = phase.match * window.evidence;
+  match.explained = phase.variance * signal * signal;
+  match.correlation = std::sqrt(match.explained / match.variance);
+  match.strength = std::sqrt(window.dots2);
+  match.off_centre_px = static_cast<float>(scale_) * window.moment / window.evidence;
+  match.disparity_px = window.disparity / window.evidence;
   return match;
 }
 
 bool ParametricDepth::IsAccepted(const Match& match, float rival, const Noise& noise) const {
   const auto pixels = static_cast<float>(matching_.window_width_px * matching_.window_height_px);
+  // Fitted to SpeckleMatcher on walls: the search takes the best of several places around the right
+  // one, and windows hold more or fewer dots.
+  constexpr float kBestOfSeveral = 0.4f;
+  constexpr float kSpread = 1.1f;
   const float rho = match.correlation;
-  const float measured = rho + (1.0f - rho * rho) / std::sqrt(pixels) * noise.evidence;
+  const float deviation = (1.0f - rho * rho) / std::sqrt(pixels);
+  const float measured =
+      std::min(1.0f, rho + deviation * (kBestOfSeveral + kSpread * noise.evidence));
   if (measured < static_cast<float>(matching_.least_correlation)) return false;
   if (measured - rival < static_cast<float>(matching_.least_lead)) return false;
-  const auto variance = static_cast<float>(pattern_.variance);
-  const float explained = variance * match.evidence * match.evidence;
-  if (match.unexplained <= static_cast<float>(matching_.most_unexplained) * explained) return true;
+  const float explained = measured * measured * match.variance;
+  const float unexplained = match.variance - explained - match.noise;
+  if (unexplained <= static_cast<float>(matching_.most_unexplained) * explained) return true;
   // The centre's noise: that of a mean place over the window, weighted with noisy evidence.
   const auto width = static_cast<float>(matching_.window_width_px);
   const float by_noise_px =
-      match.noise_dn / std::sqrt(explained) * width / std::sqrt(12.0f * pixels);
+      std::sqrt(match.noise / match.explained) * width / std::sqrt(12.0f * pixels);
   const float spread_px = std::hypot(by_noise_px, static_cast<float>(noise_.lateral_noise_px));
   return std::abs(match.off_centre_px + spread_px * noise.lateral) <=
          static_cast<float>(matching_.most_off_centre) * width;
 }
 
-float ParametricDepth::Read(const Windows& windows, cv::Point pixel, const Noise& noise) const {
-  const float own_px = windows.disparity_px(pixel);
-  Match match = MatchAt(windows, pixel, own_px);
+float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
+                            const Noise& noise) const {
+  const float own_px = light.disparity_px(pixel);
+  const float strongest_px = window.strongest_disparity;
+  Match match = MatchAt(window, own_px);
   float rival = -1.0f;
-  const float strongest_px = windows.disparity_px(match.strongest);
   if (std::abs(strongest_px - own_px) > 1.0f) {
-    Match other = MatchAt(windows, pixel, strongest_px);
+    Match other = MatchAt(windows_.At(light, pixel, strongest_px), strongest_px);
     if (other.correlation > match.correlation) std::swap(match, other);
     rival = other.correlation;
   }
   if (!IsAccepted(match, rival, noise)) return kNaN;
-  const auto temporal_px = static_cast<float>(noise_.temporal_disparity_noise_px) * match.noise_dn /
-                           std::sqrt(match.strength2);
+  const auto temporal_px = static_cast<float>(noise_.temporal_disparity_noise_px) *
+                           std::sqrt(match.noise) / match.strength;
   return match.disparity_px + static_cast<float>(noise_.fixed_disparity_noise_px) * noise.fixed +
          temporal_px * noise.temporal;
 }
@@ -212,9 +169,9 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
                                     const RandomStream& frame) const {
   const AovImages aovs =
       caster.CastAovs(rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = X_WB * p_CP_});
-  const Windows windows = Gather(aovs);
+  const WindowLight light = LightOf(aovs);
   const cv::Size size = aovs.depth_m.size();
-  const cv::Size window(static_cast<int>(weights_u_.size()), static_cast<int>(weights_v_.size()));
+  const cv::Size window(2 * windows_.reach_u() + 1, 2 * windows_.reach_v() + 1);
   const cv::Mat1f evidence = WindowNoise(frame.Child("evidence"), size, window);
   const cv::Mat1f lateral = WindowNoise(frame.Child("lateral"), size, window);
   const cv::Mat1f fixed = WindowNoise(shot.Child("laser_speckle"), size, window);
@@ -224,6 +181,7 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
   DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
                     .no_return = cv::Mat1b::zeros(size)};
   for (int v = 0; v < size.height; ++v) {
+    const std::vector<WindowEvidence> row = windows_.Row(light, v);
     for (int u = 0; u < size.width; ++u) {
       const cv::Point pixel(u, v);
       // Windows leave the image where those of the whole infra-red image do.
@@ -237,11 +195,12 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
       } else if (!is_inside) {
         reason = NoReturn::kBorder;
       } else {
-        const float disparity_px = Read(windows, pixel,
-                                        {.evidence = evidence(pixel),
-                                         .lateral = lateral(pixel),
-                                         .fixed = fixed(pixel),
-                                         .temporal = temporal(pixel)});
+        const float disparity_px =
+            Read(light, row[static_cast<size_t>(u - windows_.reach_u())], pixel,
+                 {.evidence = evidence(pixel),
+                  .lateral = lateral(pixel),
+                  .fixed = fixed(pixel),
+                  .temporal = temporal(pixel)});
         if (std::isfinite(disparity_px)) {
           z_m = range_.Depth(static_cast<double>(disparity_px));
           if (z_m == 0.0) reason = NoReturn::kRange;

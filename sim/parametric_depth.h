@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "core/camera_model.h"
 #include "core/random_stream.h"
 #include "renderers/ray_caster.h"
@@ -7,6 +9,7 @@
 #include "sim/disparity_range.h"
 #include "sim/infrared_image.h"
 #include "sim/speckle_matching.h"
+#include "sim/window_evidence.h"
 
 namespace fenestra {
 
@@ -16,7 +19,7 @@ struct ParametricDepthOptions {
   /// place within a pixel make, the same in every frame of a view; and what noise makes of windows
   /// whose dots stand out of it by its own standard deviation. Both fitted to SpeckleDepth before
   /// white walls at 0.8 to 4 m.
-  double fixed_disparity_noise_px = 0.045;
+  double fixed_disparity_noise_px = 0.03;
   double temporal_disparity_noise_px = 0.28;
   /// Of where a window's evidence is centred: outlines lie that far from where they are seen
   /// (Barron & Handa, simkinect: 0.5).
@@ -29,14 +32,16 @@ void Validate(const ParametricDepthOptions& options);
 /// Depth from what windows of the infra-red image would hold, without making the image.
 ///
 /// Pixel i of the window around a depth pixel receives dots of strength s_i at disparity d_i and
-/// ambient light a_i. With a pattern of mean m and variance v (GatheredPattern), speckle contrast c
-/// and noise σ², the image's correlation with the pattern at disparity d is expected to be
+/// ambient light a_i. With a pattern of mean m and variance v (GatheredPattern, displaced by d),
+/// speckle contrast c and noise σ², the image's correlation with the pattern at disparity d is
+/// expected to be
 ///
-///     ρ = √v S / √(v ⟨s²⟩ + c² (v + m²) ⟨s²⟩ + var(m s + a) + σ²),
+///     ρ = κ √v S / √V,  V = v ⟨s²⟩ + c² (v + m²) ⟨s²⟩ + var(m s + a) + σ²,
 ///     S = ⟨s_i exp(-(d_i - d)² / 4 σ_p²)⟩,
 ///
-/// where σ_p² = σ_dot² + 1/12 is the spread of a dot with that of a pixel. d is the disparity of
-/// the window's centre or that of its strongest pixel, whichever fits better. Noise of the standard
+/// where σ_p² = σ_dot² + 1/12 is the spread of a dot with that of a pixel and κ the correlation of
+/// the pattern at d with itself at the nearest step of the search. d is the disparity of the
+/// window's centre or that of its strongest pixel, whichever fits better. Noise of the standard
 /// deviation (1 - ρ²)/√n is added to ρ, and SpeckleMatchingOptions decide, as in SpeckleMatcher.
 /// The window's disparity is the mean of d_i over its evidence, and noise.
 class ParametricDepth {
@@ -51,7 +56,6 @@ class ParametricDepth {
                      double unit_m, const RandomStream& shot, const RandomStream& frame) const;
 
  private:
-  struct Windows;
   struct Match;
   /// Standard normal variates of one window.
   struct Noise {
@@ -60,14 +64,20 @@ class ParametricDepth {
     float fixed;
     float temporal;
   };
+  /// The pattern at a displacement by a fraction of a pixel.
+  struct Phase {
+    float variance;  ///< v
+    float match;     ///< κ
+  };
+  static constexpr int kPhases = 16;
 
-  Windows Gather(const AovImages& aovs) const;
+  WindowLight LightOf(const AovImages& aovs) const;
   /// Of the window with the pattern at this disparity [px at 640].
-  Match MatchAt(const Windows& windows, cv::Point pixel, float disparity_px) const;
-  /// Whether the match is accepted, given the best one at another disparity.
+  Match MatchAt(const WindowEvidence& window, float disparity_px) const;
   bool IsAccepted(const Match& match, float rival, const Noise& noise) const;
   /// Disparity after noise [px at 640], or NaN.
-  float Read(const Windows& windows, cv::Point pixel, const Noise& noise) const;
+  float Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
+             const Noise& noise) const;
 
   InfraredOptions infrared_;
   ParametricDepthOptions noise_;
@@ -75,10 +85,10 @@ class ParametricDepth {
   DisparityRange range_;
   Eigen::Vector3d p_CP_;
   RayGrid rays_;
-  PatternStatistics pattern_;
-  double scale_;                  ///< Pixels of a 640-wide image per depth pixel.
-  std::vector<float> weights_u_;  ///< Of the window's depth pixels, by how much of them it covers.
-  std::vector<float> weights_v_;
+  float pattern_mean_;
+  std::array<Phase, kPhases> phases_;
+  double scale_;  ///< Pixels of a 640-wide image per depth pixel.
+  WindowGatherer windows_;
 };
 
 }  // namespace fenestra

@@ -148,6 +148,7 @@ SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
       // Rounding to whole numbers is noise too.
       dark_variance_(infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0),
       shot_noise_dn_(infrared.shot_noise_dn),
+      vertex_(pattern),
       size_(image),
       least_(static_cast<int>(std::floor(least_px))),
       most_(static_cast<int>(std::ceil(most_px))) {
@@ -225,13 +226,13 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image, int row_step) const
     if (!is_wanted) continue;
     for (int i = 0; i < inside; ++i) {
       matches.correlation(v, i + reach_u) = std::max(best.score[i], -1.0f);
-      const auto step = Accept(best, i);
-      if (!step) continue;
+      const auto place_px = Accept(best, i);
+      if (!place_px) continue;
       const cv::Point pixel(i + reach_u, v);
       const double mean = static_cast<double>(sums(pixel)) / static_cast<double>(pixels);
       if (IsWhole(best.score[i], mean, static_cast<double>(inverse_spread(pixel))) ||
           IsCentred(grey, pixel, mean, static_cast<int>(best.step[i]))) {
-        matches.disparity_px(pixel) = static_cast<float>(least_) + 0.5f * *step;
+        matches.disparity_px(pixel) = static_cast<float>(least_) + *place_px;
       }
     }
   }
@@ -246,13 +247,8 @@ std::optional<float> SpeckleMatcher::Accept(const Best& best, int i) const {
   if (score - best.second[i] < static_cast<float>(options_.least_lead)) return std::nullopt;
   // The first and the last step have no neighbour on one side.
   if (before == kNoScore || after == kNoScore) return std::nullopt;
-  // Near its top the correlation of two patterns of Gaussian dots is a Gaussian: the vertex of the
-  // parabola through the logarithms.
-  if (before <= 0.0f || after <= 0.0f) return best.step[i];
-  const float left = std::log(before / score);
-  const float right = std::log(after / score);
-  const float bend = left + right;
-  return best.step[i] + (bend < 0.0f ? 0.5f * (left - right) / bend : 0.0f);
+  const bool is_whole_pixel = static_cast<int>(best.step[i]) % 2 == 0;
+  return 0.5f * best.step[i] + vertex_.Offset(is_whole_pixel, before, score, after);
 }
 
 // With a window's variance V, the match explains ρ² V and leaves (1 - ρ²) V, of which the noise is

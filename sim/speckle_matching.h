@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "sim/infrared_image.h"
+#include "sim/subpixel_vertex.h"
 
 namespace fenestra {
 
@@ -46,7 +47,7 @@ struct SpeckleMatches {
 ///
 ///     ZNCC(d) = cov(I, R_d) / √(var I var R_d),
 ///
-/// over steps of half a pixel, and the vertex of the parabola through the best and its neighbours.
+/// over steps of half a pixel, and the vertex by the best and its neighbours (SubpixelVertex).
 class SpeckleMatcher {
  public:
   /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
@@ -69,7 +70,7 @@ class SpeckleMatcher {
   };
 
  private:
-  /// The step, with its fraction, at which pixel i of a row matches.
+  /// The place at which pixel i of a row matches, from the least disparity on [px].
   std::optional<float> Accept(const Best& best, int i) const;
   /// Whether all dots of a pixel's window are there, as far as noise lets tell; `mean` and
   /// `inverse_spread` are of the image's window.
@@ -88,6 +89,7 @@ class SpeckleMatcher {
   SpeckleMatchingOptions options_;
   double dark_variance_;
   double shot_noise_dn_;
+  SubpixelVertex vertex_;
   cv::Size size_;
   int least_;
   int most_;
