@@ -26,6 +26,12 @@ cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, cv::Size window
          std::sqrt(static_cast<float>(window.area()));
 }
 
+// Whether a window that reaches so far around pixel (u, v) lies in an image `scale` times as wide.
+bool Covers(cv::Size size, int reach_u, int reach_v, int u, int v, double scale) {
+  return u * scale >= reach_u && u * scale + reach_u <= size.width * scale - 1.0 &&
+         v * scale >= reach_v && v * scale + reach_v <= size.height * scale - 1.0;
+}
+
 // The spread of a dot with that of a pixel.
 double SpreadOf(const InfraredOptions& infrared) {
   return std::sqrt(infrared.dot_sigma_px * infrared.dot_sigma_px + 1.0 / 12.0);
@@ -185,9 +191,8 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
     for (int u = 0; u < size.width; ++u) {
       const cv::Point pixel(u, v);
       // Windows leave the image where those of the whole infra-red image do.
-      const bool is_inside =
-          u * scale_ >= reach.width && u * scale_ + reach.width <= size.width * scale_ - 1.0 &&
-          v * scale_ >= reach.height && v * scale_ + reach.height <= size.height * scale_ - 1.0;
+      const bool is_inside = Covers(size, windows_.reach_u(), windows_.reach_v(), u, v, 1.0) &&
+                             Covers(size, reach.width, reach.height, u, v, scale_);
       NoReturn reason = NoReturn::kNone;
       double z_m = 0.0;
       if (!std::isfinite(aovs.depth_m(pixel))) {

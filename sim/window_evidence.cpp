@@ -26,7 +26,7 @@ std::vector<float> Weights(double side_px) {
   const int reach = static_cast<int>(std::ceil(0.5 * side_px - 0.5));
   std::vector<float> weights;
   for (int i = -reach; i <= reach; ++i) {
-    const double covered = std::clamp(0.5 * side_px - std::abs(i) + 0.5, 0.0, 1.0);
+    const double covered = std::min(i + 0.5, 0.5 * side_px) - std::max(i - 0.5, -0.5 * side_px);
     weights.push_back(static_cast<float>(covered / side_px));
   }
   return weights;

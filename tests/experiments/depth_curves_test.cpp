@@ -25,11 +25,13 @@ StructuredLightOptions Small(DepthModel model) {
   return options;
 }
 
-TEST(DepthCurvesTest, TheParametricModelFollowsTheCurveItsNoiseWasTakenFrom) {
+TEST(DepthCurvesTest, TheParametricModelLosesReturnsToLightAndDistance) {
   const DepthCurves curves = MeasureDepthCurves(Small(DepthModel::kParametric), RandomStream(1));
   for (const DepthCurves::Distance& at : curves.by_distance) {
-    EXPECT_NEAR(at.residual_m / KhoshelhamSigma(at.z_m), 1.0, 0.2) << at.z_m;
-    EXPECT_NEAR(at.temporal_m / at.residual_m, 1.0, 0.2) << at.z_m;
+    // A fixed pattern is a part of the residual.
+    EXPECT_LT(at.temporal_m, at.residual_m) << at.z_m;
+    if (at.z_m > 3.0) continue;  // Farther, dots are dimmer than the curve knows.
+    EXPECT_NEAR(at.residual_m / KhoshelhamSigma(at.z_m), 1.0, 0.3) << at.z_m;
   }
   // Light and distance only take pixels away.
   const auto share_falls = [](const auto& rows, auto same) {
