@@ -269,42 +269,42 @@ void AddRgbdDepth(Table& t) {
 }
 
 void AddRgbdColor(Table& t) {
-  t.Integer("rgbd_color_width_px", FIELD(rgbd.color_width_px), {64, 4096}, "Of the colour image.")
-      .Integer("rgbd_color_height_px", FIELD(rgbd.color_height_px), {64, 4096},
+  t.Integer("rgbd_color_width_px", FIELD(rgbd.color.width_px), {64, 4096}, "Of the colour image.")
+      .Integer("rgbd_color_height_px", FIELD(rgbd.color.height_px), {64, 4096},
                "Of the colour image.")
-      .Number("rgbd_color_focal_px", FIELD(rgbd.color_focal_px), {10.0, 1e4},
+      .Number("rgbd_color_focal_px", FIELD(rgbd.color.focal_px), {10.0, 1e4},
               "Of the colour camera.")
       .Number("rgbd_color_offset_m", FIELD(rgbd.color_offset_m), {-1.0, 1.0},
               "From the depth camera to the colour camera, to the right.")
-      .Number("rgbd_color_f_number", FIELD(rgbd.color_lens.f_number), {0.7, 32.0}, "Aperture.")
-      .Number("rgbd_color_transmission", FIELD(rgbd.color_lens.transmission), {0.01, 1.0},
+      .Number("rgbd_color_f_number", FIELD(rgbd.color.lens.f_number), {0.7, 32.0}, "Aperture.")
+      .Number("rgbd_color_transmission", FIELD(rgbd.color.lens.transmission), {0.01, 1.0},
               "Share of the light that the lens lets through.")
-      .Number("rgbd_color_blur_px", FIELD(rgbd.color_lens.blur_sigma_px), {0.0, 10.0},
+      .Number("rgbd_color_blur_px", FIELD(rgbd.color.lens.blur_sigma_px), {0.0, 10.0},
               "Standard deviation of the lens' Gaussian point spread.")
-      .Number("rgbd_color_corner_blur_px", FIELD(rgbd.color_lens.corner_blur_sigma_px), {0.0, 10.0},
+      .Number("rgbd_color_corner_blur_px", FIELD(rgbd.color.lens.corner_blur_sigma_px), {0.0, 10.0},
               "The same in the image's corners; not less than on the axis.")
-      .Number("rgbd_color_red_blur", FIELD(rgbd.color_red_blur), {0.1, 10.0},
+      .Number("rgbd_color_red_blur", FIELD(rgbd.color.red_blur), {0.1, 10.0},
               "Blur in red as a multiple of that in green.")
-      .Number("rgbd_color_blue_blur", FIELD(rgbd.color_blue_blur), {0.1, 10.0},
+      .Number("rgbd_color_blue_blur", FIELD(rgbd.color.blue_blur), {0.1, 10.0},
               "Blur in blue as a multiple of that in green.")
-      .Number("rgbd_color_corner_illumination", FIELD(rgbd.color_lens.corner_illumination),
+      .Number("rgbd_color_corner_illumination", FIELD(rgbd.color.lens.corner_illumination),
               {0.05, 1.0},
               "Share of the light that reaches the corners, besides natural vignetting.")
-      .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color_electrons_per_lux_s), {1.0, 1e8},
+      .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color.electrons_per_lux_s), {1.0, 1e8},
               "Sensitivity of a pixel.")
-      .Number("rgbd_color_saturation_e", FIELD(rgbd.color_sensor.saturation_e), {10.0, 1e7},
+      .Number("rgbd_color_saturation_e", FIELD(rgbd.color.sensor.saturation_e), {10.0, 1e7},
               "Electrons at full scale.")
-      .Number("rgbd_color_read_noise_e", FIELD(rgbd.color_sensor.read_noise_e), {0.0, 1e4},
+      .Number("rgbd_color_read_noise_e", FIELD(rgbd.color.sensor.read_noise_e), {0.0, 1e4},
               "Standard deviation of the read noise.")
-      .Switch("rgbd_color_noise", FIELD(rgbd.color_sensor.noise),
+      .Switch("rgbd_color_noise", FIELD(rgbd.color.sensor.noise),
               "Noise of the colour image that differs from frame to frame.")
-      .Switch("rgbd_color_fixed_pattern", FIELD(rgbd.color_sensor.fixed_pattern),
+      .Switch("rgbd_color_fixed_pattern", FIELD(rgbd.color.sensor.fixed_pattern),
               "Non-uniformity of the colour camera's pixels.")
-      .Switch("rgbd_color_auto_exposure", FIELD(rgbd.color_auto_exposure),
+      .Switch("rgbd_color_auto_exposure", FIELD(rgbd.color.auto_exposure),
               "Choose the exposure by the image's mean.")
-      .Number("rgbd_color_mean_dn", FIELD(rgbd.color_mean_dn), {1.0, 254.0},
+      .Number("rgbd_color_mean_dn", FIELD(rgbd.color.mean_dn), {1.0, 254.0},
               "Mean of the sRGB-encoded image, with automatic exposure.")
-      .Number("rgbd_color_exposure_ms", FIELD(rgbd.color_exposure_s), {1e-4, 1e4, kMilli},
+      .Number("rgbd_color_exposure_ms", FIELD(rgbd.color.exposure_s), {1e-4, 1e4, kMilli},
               "Exposure without automatic exposure.")
       .Integer(
           "rgbd_edge_samples", FIELD(rgbd.edge_samples_per_pixel), {4, 256},

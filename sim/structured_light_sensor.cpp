@@ -8,21 +8,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
-#include "sim/srgb.h"
 
 namespace fenestra {
 namespace {
 
-// Limits of the colour camera's automatic exposure: its shortest line time and one frame at 30 Hz.
-constexpr double kShortestColorExposure = 20e-6;
-constexpr double kLongestColorExposure = 1.0 / 30.0;
-
 CameraModel DepthCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
-}
-
-CameraModel ColorCamera(const StructuredLightOptions& o) {
-  return CameraModel::Pinhole(o.color_width_px, o.color_height_px, o.color_focal_px);
 }
 
 Pose DepthToColor(const StructuredLightOptions& o) {
@@ -59,33 +50,25 @@ void Validate(const StructuredLightOptions& o) {
   demand(o.depth_model != DepthModel::kSpeckle || o.infrared_width_px % o.depth_width_px == 0,
          fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
                      o.infrared_width_px, o.depth_width_px));
-  demand(o.color_lens.corner_blur_sigma_px >= o.color_lens.blur_sigma_px,
-         fmt::format("colour blur {} px in the corners is less than {} px in the centre",
-                     o.color_lens.corner_blur_sigma_px, o.color_lens.blur_sigma_px));
-  demand(o.color_mean_dn > 0.0 && o.color_mean_dn < 255.0,
-         "the colour image's mean must lie between 0 and 255");
   if (!faults.empty()) throw InputError(std::move(faults));
   Validate(o.infrared);
   Validate(o.parametric);
   Validate(o.matching);
+  Validate(o.color);
 }
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
     : options_((Validate(options), options)),
-      nominal_{.color = ColorCamera(options),
+      nominal_{.color = DesignOf(options.color),
                .depth = DepthCamera(options),
                .X_KD = DepthToColor(options)},
       depth_rays_(nominal_.depth),
-      color_rays_(nominal_.color),
       depth_model_(MakeDepthModel(options, nominal_.depth)),
-      color_illumination_(RelativeIllumination(color_rays_, options.color_lens)),
-      // One fixed pattern: all sensors of a study are the same unit.
-      color_sensor_(options.color_sensor, {options.color_width_px, options.color_height_px},
-                    RandomStream(0).Child("color_camera")) {}
+      color_(options.color, options.edge_samples_per_pixel) {}
 
 RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Lighting& lighting,
                                                const Pose& X_WB, const RandomStream& shot) const {
-  return {.color = ObserveColor(caster, lighting, X_WB, shot),
+  return {.color = color_.Observe(caster, lighting, X_WB * nominal_.X_KD.inverse(), shot),
           .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
 }
 
@@ -120,73 +103,6 @@ DepthFrame StructuredLightSensor::OneDepthFrame(const RayCaster& caster, const L
         return model->Observe(caster, lighting, X_WB, nominal_.depth_unit_m, shot, frame);
       },
       depth_model_);
-}
-
-cv::Mat3b StructuredLightSensor::ObserveColor(const RayCaster& caster, const Lighting& lighting,
-                                              const Pose& X_WB, const RandomStream& shot) const {
-  const RenderOptions render{.band = Band::kRgb,
-                             .samples_per_pixel = 4,
-                             .edge_samples_per_pixel = options_.edge_samples_per_pixel};
-  const QuarterImages luminance = caster.RenderQuarters(
-      color_rays_, X_WB * nominal_.X_KD.inverse(), lighting, render, shot.Child("color_sampling"));
-  std::array<cv::Mat1f, 3> channels;
-  const std::array<double, 3> blur = {options_.color_blue_blur, 1.0, options_.color_red_blur};
-  const double electrons_per_s =
-      options_.color_electrons_per_lux_s * IlluminancePerLuminance(options_.color_lens);
-  for (size_t i = 0; i < channels.size(); ++i) {
-    QuarterImages quarters;
-    for (size_t q = 0; q < quarters.size(); ++q) {
-      cv::extractChannel(luminance[q], quarters[q], static_cast<int>(i));
-    }
-    channels[i] =
-        Gather(quarters, {.centre_sigma_px = blur[i] * options_.color_lens.blur_sigma_px,
-                          .corner_sigma_px = blur[i] * options_.color_lens.corner_blur_sigma_px})
-            .mul(color_illumination_, electrons_per_s);
-  }
-  const double exposure_s = ColorExposure(channels);
-  std::array<cv::Mat1b, 3> encoded;
-  for (size_t i = 0; i < channels.size(); ++i) {
-    encoded[i] = DevelopColor(channels[i], exposure_s, shot.Child("color_noise", i));
-  }
-  cv::Mat3b color;
-  cv::merge(encoded.data(), encoded.size(), color);
-  return color;
-}
-
-cv::Mat1b StructuredLightSensor::DevelopColor(const cv::Mat1f& electrons_per_s, double exposure_s,
-                                              const RandomStream& frame) const {
-  const cv::Mat1w dn =
-      color_sensor_.Expose(electrons_per_s, {.exposure_s = exposure_s, .gain = 1.0}, frame);
-  // Black is taken away before the encoding.
-  const double black_dn = color_sensor_.BlackLevelDn();
-  const double per_dn = 1.0 / (color_sensor_.FullScaleDn() - black_dn);
-  cv::Mat1f linear;
-  dn.convertTo(linear, CV_32F, per_dn, -black_dn * per_dn);
-  return EncodeSrgb(linear);
-}
-
-double StructuredLightSensor::ColorExposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const {
-  if (!options_.color_auto_exposure) return options_.color_exposure_s;
-  // The encoded mean grows with exposure, but not linearly: bisect. Without noise, on every fourth
-  // pixel of every fourth row.
-  std::array<cv::Mat1f, 3> sparse;
-  for (size_t i = 0; i < sparse.size(); ++i) {
-    cv::resize(electrons_per_s[i], sparse[i], {}, 0.25, 0.25, cv::INTER_NEAREST);
-  }
-  const auto mean_dn = [&](double exposure_s) {
-    double sum = 0.0;
-    for (const cv::Mat1f& channel : sparse) {
-      sum += cv::mean(EncodeSrgb(channel * (exposure_s / options_.color_sensor.saturation_e)))[0];
-    }
-    return sum / 3.0;
-  };
-  double low_s = kShortestColorExposure;
-  double high_s = kLongestColorExposure;
-  for (int i = 0; i < 24; ++i) {
-    const double middle_s = std::sqrt(low_s * high_s);
-    (mean_dn(middle_s) < options_.color_mean_dn ? low_s : high_s) = middle_s;
-  }
-  return std::sqrt(low_s * high_s);
 }
 
 GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) const {
