@@ -248,6 +248,8 @@ void AddRgbdDepth(Table& t) {
                "Of the infra-red image that speckle matches; a multiple of the depth image's.")
       .Integer("rgbd_averaged_frames", FIELD(rgbd.averaged_frames), {1, 1000},
                "Depth images that are averaged, each with noise of its own.")
+      .Switch("rgbd_registered_depth", FIELD(rgbd.registered_depth),
+              "Depth as the colour camera would see it, as drivers deliver it.")
       .Number("rgbd_dot_sigma_px", FIELD(rgbd.infrared.dot_sigma_px), {0.1, 1.0},
               "Spread of a dot in the infra-red image.")
       .Number("rgbd_speckle_contrast", FIELD(rgbd.infrared.speckle_contrast), {0.0, 1.0},

@@ -13,11 +13,12 @@ GltfScene TrialScene(const TrialSettings& settings) {
   const StereoCalibration stereo = DesignOf(settings.stereo);
   const Pose X_BL = Pose::Translation({-0.5 * settings.stereo.baseline_m, 0.0, 0.0});
   const Pose X_BR = X_BL * stereo.X_RL.inverse();
-  const RgbdCalibration rgbd = StructuredLightSensor(settings.rgbd).nominal();
+  const StructuredLightSensor sensor(settings.rgbd);
+  const RgbdCalibration& rgbd = sensor.nominal();
   world.cameras = {{.name = "left", .X_WC = X_WB * X_BL, .model = stereo.left},
                    {.name = "right", .X_WC = X_WB * X_BR, .model = stereo.right},
-                   {.name = "depth", .X_WC = X_WB, .model = rgbd.depth},
-                   {.name = "color", .X_WC = X_WB * rgbd.X_KD.inverse(), .model = rgbd.color}};
+                   {.name = "depth", .X_WC = sensor.X_WD(X_WB), .model = rgbd.depth},
+                   {.name = "color", .X_WC = sensor.X_WK(X_WB), .model = rgbd.color}};
   if (settings.lighting.sun.illuminance_lx > 0.0) world.sun = settings.lighting.sun;
   return world;
 }

@@ -17,6 +17,8 @@ enum class NoReturn : unsigned char {
   kSaturated,  ///< Ambient light alone saturates the infra-red image.
   kNoMatch,    ///< Dots can be seen, but the window is not recognised: it straddles an edge.
   kBorder,     ///< The window leaves the infra-red image.
+  /// Registered depth only: the depth camera sees something else there, or its pixels leave a gap.
+  kNotRegistered,
 };
 
 /// A depth image with its reasons.

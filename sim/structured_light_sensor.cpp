@@ -12,12 +12,21 @@
 namespace fenestra {
 namespace {
 
-CameraModel DepthCamera(const StructuredLightOptions& o) {
+CameraModel InfraredCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
 }
 
 Pose DepthToColor(const StructuredLightOptions& o) {
   return Pose::Translation({-o.color_offset_m, 0.0, 0.0});
+}
+
+RgbdCalibration CalibrationOf(const StructuredLightOptions& o) {
+  const CameraModel color = DesignOf(o.color);
+  if (!o.registered_depth) {
+    return {.color = color, .depth = InfraredCamera(o), .X_KD = DepthToColor(o)};
+  }
+  const double scale = static_cast<double>(o.depth_width_px) / o.color.width_px;
+  return {.color = color, .depth = color.Scaled(scale), .X_KD = Pose()};
 }
 
 DisparityRange RangeOf(const StructuredLightOptions& o) {
@@ -47,6 +56,9 @@ void Validate(const StructuredLightOptions& o) {
   demand(o.disparity_step_px >= 0.0, "the disparity step must not be negative");
   demand(o.averaged_frames >= 1 && o.averaged_frames <= 1000,
          fmt::format("{} averaged frames are not between 1 and 1000", o.averaged_frames));
+  demand(!o.registered_depth ||
+             o.depth_width_px * o.color.height_px == o.depth_height_px * o.color.width_px,
+         "depth can be registered if its image has the colour image's proportions");
   demand(o.depth_model != DepthModel::kSpeckle || o.infrared_width_px % o.depth_width_px == 0,
          fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
                      o.infrared_width_px, o.depth_width_px));
@@ -59,20 +71,36 @@ void Validate(const StructuredLightOptions& o) {
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
     : options_((Validate(options), options)),
-      nominal_{.color = DesignOf(options.color),
-               .depth = DepthCamera(options),
-               .X_KD = DepthToColor(options)},
-      depth_rays_(nominal_.depth),
-      depth_model_(MakeDepthModel(options, nominal_.depth)),
-      color_(options.color, options.edge_samples_per_pixel) {}
+      nominal_(CalibrationOf(options)),
+      depth_model_(MakeDepthModel(options, InfraredCamera(options))),
+      color_(options.color, options.edge_samples_per_pixel),
+      depth_rays_(nominal_.depth) {
+  if (options.registered_depth) {
+    registrar_.emplace(InfraredCamera(options), DepthToColor(options), nominal_.depth);
+  }
+}
+
+Pose StructuredLightSensor::X_WK(const Pose& X_WB) const {
+  return X_WB * DepthToColor(options_).inverse();
+}
+
+Pose StructuredLightSensor::X_WD(const Pose& X_WB) const {
+  return options_.registered_depth ? X_WK(X_WB) : X_WB;
+}
 
 RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Lighting& lighting,
                                                const Pose& X_WB, const RandomStream& shot) const {
-  return {.color = color_.Observe(caster, lighting, X_WB * nominal_.X_KD.inverse(), shot),
+  return {.color = color_.Observe(caster, lighting, X_WK(X_WB), shot),
           .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
 }
 
 DepthFrame StructuredLightSensor::ObserveDepth(const RayCaster& caster, const Lighting& lighting,
+                                               const Pose& X_WB, const RandomStream& shot) const {
+  const DepthFrame frame = AverageDepth(caster, lighting, X_WB, shot);
+  return registrar_ ? registrar_->Register(frame, caster, lighting, X_WK(X_WB)) : frame;
+}
+
+DepthFrame StructuredLightSensor::AverageDepth(const RayCaster& caster, const Lighting& lighting,
                                                const Pose& X_WB, const RandomStream& shot) const {
   DepthFrame first = OneDepthFrame(caster, lighting, X_WB, shot, shot);
   if (options_.averaged_frames == 1) return first;
@@ -106,26 +134,27 @@ DepthFrame StructuredLightSensor::OneDepthFrame(const RayCaster& caster, const L
 }
 
 GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) const {
-  const std::array<PlacedCamera, 2> cameras = {
-      PlacedCamera{nominal_.depth, X_WB},
-      PlacedCamera{nominal_.color, X_WB * nominal_.X_KD.inverse()}};
-  return MakeGroundTruth(scene, X_WB, cameras);
+  const std::array<PlacedCamera, 2> cameras = {PlacedCamera{nominal_.depth, X_WD(X_WB)},
+                                               PlacedCamera{nominal_.color, X_WK(X_WB)}};
+  return MakeGroundTruth(scene, X_WD(X_WB), cameras);
 }
 
 TruthImages StructuredLightSensor::PixelTruth(const RayCaster& caster, const Lighting& lighting,
                                               const Pose& X_WB) const {
   const Eigen::Vector3d p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0);
-  AovImages aovs = caster.CastAovs(depth_rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = p_WP});
+  AovImages aovs =
+      caster.CastAovs(depth_rays_, X_WD(X_WB), lighting, {.offsets_px = {}, .p_WP = p_WP});
   const RenderOptions render{.band = Band::kInfrared,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
-  const cv::Mat1f radiance = caster.Render(depth_rays_, X_WB, lighting, render, RandomStream(0));
+  const cv::Mat1f radiance =
+      caster.Render(depth_rays_, X_WD(X_WB), lighting, render, RandomStream(0));
   const auto fb =
       static_cast<float>(options_.depth_focal_px * options_.projector_baseline_m);  // [px m]
   cv::Mat2f disparity_px(aovs.depth_m.size());
   std::transform(aovs.depth_m.begin(), aovs.depth_m.end(), disparity_px.begin(),
                  [fb](float z_m) { return cv::Vec2f(fb / z_m, 0.0f * z_m); });
   return {.camera = nominal_.depth,
-          .X_WC = X_WB,
+          .X_WC = X_WD(X_WB),
           .aovs = std::move(aovs),
           .band = render.band,
           .radiance = radiance,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "core/calibration.h"
@@ -9,6 +10,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/color_camera.h"
 #include "sim/depth_frame.h"
+#include "sim/depth_registrar.h"
 #include "sim/ground_truth.h"
 #include "sim/infrared_image.h"
 #include "sim/parametric_depth.h"
@@ -49,6 +51,9 @@ struct StructuredLightOptions {
   /// Depth images at 30 Hz that are averaged, each with its own noise: the mean of the returns of
   /// pixels with a return in at least half of them.
   int averaged_frames = 1;
+  /// Whether the depth image is delivered as the colour camera would see it (DepthRegistrar), in as
+  /// many pixels as before.
+  bool registered_depth = false;
 
   ColorCameraOptions color;
   int edge_samples_per_pixel = 64;
@@ -57,13 +62,18 @@ struct StructuredLightOptions {
 /// Throws InputError with all faults.
 void Validate(const StructuredLightOptions& options);
 
-/// A structured-light sensor. Frame B is the depth camera D.
+/// A structured-light sensor. Frame B is the infra-red camera, whose pixels the depth image has
+/// unless it is registered.
 class StructuredLightSensor {
  public:
   explicit StructuredLightSensor(const StructuredLightOptions& options);
 
   const StructuredLightOptions& options() const { return options_; }
   const RgbdCalibration& nominal() const { return nominal_; }
+
+  /// The camera whose pixels the depth image has, and the colour camera.
+  Pose X_WD(const Pose& X_WB) const;
+  Pose X_WK(const Pose& X_WB) const;
 
   RgbdObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                           const RandomStream& shot) const;
@@ -76,15 +86,19 @@ class StructuredLightSensor {
                           const RandomStream& shot) const;
 
  private:
+  /// As the infra-red camera sees it.
+  DepthFrame AverageDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                          const RandomStream& shot) const;
   DepthFrame OneDepthFrame(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                            const RandomStream& shot, const RandomStream& frame) const;
 
   StructuredLightOptions options_;
   RgbdCalibration nominal_;
-  RayGrid depth_rays_;
   std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const SpeckleDepth>>
       depth_model_;
   ColorCamera color_;
+  RayGrid depth_rays_;  ///< Of the depth image.
+  std::optional<DepthRegistrar> registrar_;
 };
 
 }  // namespace fenestra

@@ -190,6 +190,39 @@ TEST(StructuredLightSensorTest, TheColourImagesMeanIsWhatAutomaticExposureAimsFo
   }
 }
 
+TEST(StructuredLightSensorTest, RegisteredDepthLiesWhereTheColourCameraSeesIt) {
+  StructuredLightOptions options = Noiseless();
+  options.registered_depth = true;
+  const StructuredLightSensor sensor(options);
+  const RayCaster caster(BoxBeforeWall(0.3, 1.0));
+  const Pose X_WB = RigPose({.distance_m = 3.0}, Pose());
+  const DepthFrame frame = sensor.ObserveDepth(caster, {}, X_WB, RandomStream(1));
+  const cv::Mat1f truth_m = sensor.PixelTruth(caster, {}, X_WB).aovs.depth_m;
+  int wrong = 0;
+  int lost = 0;
+  for (int v = 20; v < 220; ++v) {
+    for (int u = 20; u < 300; ++u) {
+      ASSERT_EQ(frame.depth.raw(v, u) == 0, frame.no_return(v, u) != 0);
+      if (static_cast<NoReturn>(frame.no_return(v, u)) == NoReturn::kNotRegistered) ++lost;
+      if (frame.depth.raw(v, u) == 0) continue;
+      if (std::abs(frame.depth.raw(v, u) * 0.001 - static_cast<double>(truth_m(v, u))) > 0.1) {
+        ++wrong;
+      }
+    }
+  }
+  // Only along the plate's outline, of 2 · 160 + 2 · 160 pixels, windows and rounding err.
+  EXPECT_LT(wrong, 700);
+  // 25 mm to the right, the colour camera sees more of the wall beside the plate's right edge:
+  // 265.6 · 0.025 (1/2 - 1/3) = 1.1 px along its 80 px.
+  EXPECT_NEAR(lost, 88.0, 60.0);
+  // The plate is where its middle is: 2 m ahead.
+  EXPECT_NEAR(frame.depth.raw(120, 160) * 0.001, 2.0, 0.02);
+  // The truth is that of the same camera.
+  const GroundTruth truth = sensor.Truth(caster.scene(), X_WB);
+  EXPECT_TRUE(truth.X_WC == sensor.X_WK(X_WB));
+  EXPECT_TRUE(sensor.nominal().X_KD == Pose());
+}
+
 TEST(StructuredLightSensorTest, OddPosesNeitherCrashNorInventDepth) {
   StructuredLightOptions options;
   options.depth_width_px = 64;

@@ -33,19 +33,6 @@ cv::Mat2f UndistortionMap(const CameraModel& camera) {
   return map;
 }
 
-std::vector<std::optional<Eigen::Vector3d>> RotatedRays(const RgbdCalibration& calibration) {
-  const CameraModel& camera = calibration.depth;
-  std::vector<std::optional<Eigen::Vector3d>> rays_K;
-  for (int v = 0; v < camera.height_px(); ++v) {
-    for (int u = 0; u < camera.width_px(); ++u) {
-      const auto ray_D = camera.UnprojectRay({u, v});
-      rays_K.push_back(std::nullopt);
-      if (ray_D) rays_K.back() = calibration.X_KD.rotation() * *ray_D;
-    }
-  }
-  return rays_K;
-}
-
 std::string SizeText(const cv::Size& size) {
   return fmt::format("{} x {} px", size.width, size.height);
 }
@@ -76,10 +63,10 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration) {
 }
 
 DepthRegistration::DepthRegistration(const RgbdCalibration& calibration)
-    : calibration_(calibration),
-      working_(WorkingCamera(calibration)),
-      depth_is_registered_(calibration.depth == working_ && calibration.X_KD == Pose()) {
-  if (!depth_is_registered_) rays_K_ = RotatedRays(calibration);
+    : calibration_(calibration), working_(WorkingCamera(calibration)) {
+  if (calibration.depth != working_ || calibration.X_KD != Pose()) {
+    carrier_.emplace(calibration.depth, calibration.X_KD, working_);
+  }
   if (calibration.color.has_distortion()) undistortion_ = UndistortionMap(calibration.color);
 }
 
@@ -122,29 +109,9 @@ cv::Mat3b DepthRegistration::ResampleColor(const cv::Mat3b& color) const {
 }
 
 cv::Mat1f DepthRegistration::CarryDepth(const DepthImage& depth) const {
-  cv::Mat1f depth_m = cv::Mat1f::zeros(SizeOf(working_));
-  if (depth_is_registered_) {
-    depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
-    return depth_m;
-  }
-  const CameraParameters& camera = working_.parameters();
-  const Eigen::Vector3d p_KD = calibration_.X_KD.translation();
-  for (int v = 0; v < depth.raw.rows; ++v) {
-    for (int u = 0; u < depth.raw.cols; ++u) {
-      const double z_D = depth.raw(v, u) * depth.unit_m;
-      const auto& ray_K = rays_K_[static_cast<size_t>(v * depth.raw.cols + u)];
-      if (z_D == 0.0 || !ray_K) continue;
-      const Eigen::Vector3d p_KQ = z_D * *ray_K + p_KD;
-      const auto pixel = working_.Project(p_KQ);
-      if (!pixel || !working_.Contains(*pixel)) continue;
-      // A pixel exactly on the far border would round to one beyond the image.
-      const int x = std::min(static_cast<int>(std::lround(pixel->x())), camera.width_px - 1);
-      const int y = std::min(static_cast<int>(std::lround(pixel->y())), camera.height_px - 1);
-      float& nearest_m = depth_m(std::max(y, 0), std::max(x, 0));
-      const float z_m = static_cast<float>(p_KQ.z());
-      if (nearest_m == 0.0f || z_m < nearest_m) nearest_m = z_m;
-    }
-  }
+  if (carrier_) return carrier_->Carry(depth).depth_m;
+  cv::Mat1f depth_m;
+  depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
   return depth_m;
 }
 

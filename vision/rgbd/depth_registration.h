@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <vector>
 
 #include "core/calibration.h"
+#include "core/depth_carrier.h"
 #include "core/observation.h"
 
 namespace fenestra {
@@ -28,14 +27,9 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration);
 
 /// Registers depth to colour. The colour image is freed of distortion (bilinear) and averaged over
 /// the area of each working pixel, on its encoded values, as the threshold of Algorithm 1 is set on
-/// encoded values. Every depth pixel is carried to the working camera,
-///
-///     p_K = X_KD (z r_D),   r_D = (x, y, 1) the ray of the pixel in D,
-///
-/// and rounded to the nearest pixel there; of several, the nearest z wins. If K is
-/// rolled against D, a few pixels stay empty, as a turned grid of points misses some cells of the
-/// other: 0.8 % of a Kinect's at 0.03 rad. Where D already is the working camera and X_KD the
-/// identity, both images are taken as they are.
+/// encoded values. Depth is carried to the working camera by DepthCarrier; rolled by 0.03 rad, 0.8
+/// % of a Kinect's pixels stay empty. Where D already is the working camera and X_KD the identity,
+/// both images are taken as they are.
 class DepthRegistration {
  public:
   explicit DepthRegistration(const RgbdCalibration& calibration);
@@ -52,9 +46,7 @@ class DepthRegistration {
 
   RgbdCalibration calibration_;
   CameraModel working_;
-  bool depth_is_registered_;
-  /// R_KD r_D of each depth pixel, row by row; nullopt where the lens has no ray.
-  std::vector<std::optional<Eigen::Vector3d>> rays_K_;
+  std::optional<DepthCarrier> carrier_;  ///< Unless depth is registered already.
   /// Where each undistorted colour pixel lies in the colour image; empty without distortion.
   cv::Mat2f undistortion_;
 };
