@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace fenestra {
 
@@ -21,7 +22,11 @@ struct WindowEstimate {
   /// Unit normal of the window's plane, pointing towards the camera.
   Eigen::Vector3d normal_C = -Eigen::Vector3d::UnitZ();
   /// Covariance of p_CO [m²], where the detector can state one.
-  std::optional<Eigen::Matrix3d> covariance_C;
+  std::optional<Eigen::Matrix3d> covariance_C{};
+  /// How much speaks for it, 0 to 1, comparable between windows of one detector only.
+  std::optional<double> score{};
+  /// What else may be a window, the best first, where the detector can say.
+  std::vector<WindowEstimate> others{};
 };
 
 /// No window found: an expected outcome, not an error.

@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "vision/rgbd/paper_rgbd.h"
+#include "vision/stereo/edge_stereo.h"
 #include "vision/stereo/paper_stereo.h"
 
 namespace fenestra {
@@ -33,6 +34,11 @@ const std::vector<Entry>& Entries() {
         .description = "Zhou et al. 2013, section 3: block matching, gap closing, Canny",
         .options = PaperStereoParameters().infos()},
        FactoryFor<PaperStereoDetector, StereoCalibration>(PaperStereoParameters())},
+      {{.name = "edge-stereo",
+        .sensor = SensorKind::kStereo,
+        .description = "A dark frame's edges in both images, one rectangle fitted to all",
+        .options = EdgeStereoParameters().infos()},
+       FactoryFor<EdgeStereoDetector, StereoCalibration>(EdgeStereoParameters())},
       {{.name = "paper-rgbd",
         .sensor = SensorKind::kRgbd,
         .description = "Zhou et al. 2013, section 4: colour segmentation, NARF, diagonals",

@@ -1,0 +1,217 @@
+#include "vision/stereo/edge_segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+namespace fenestra {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kSobelOfStep = 3.0;  // Of a step of 1 DN that a good lens has blurred.
+constexpr double kBend_px = 0.8;
+constexpr double kFollow_px = 1.6;  // From row to row; more than an edge at 45° moves.
+constexpr int kMissingRows = 2;
+constexpr double kObliqueness = 0.7;  // tan 35°: neighbouring kinds overlap by 20°.
+constexpr double kCollinear_px = 1.2;
+constexpr double kParallel = 0.06;
+
+double Cross(const Vector2d& a, const Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+struct ChainPoint {
+  double u;
+  int v;
+  float strength;
+};
+using Chain = std::vector<ChainPoint>;
+
+// Follows upright edges down the rows.
+class ChainTracker {
+ public:
+  ChainTracker(int width, double threshold)
+      : threshold_(threshold),
+        chain_at_{std::vector<int>(width, -1), std::vector<int>(width, -1)} {}
+
+  void AddRow(int v, const short* across, const short* along, int width) {
+    for (int u = 1; u + 1 < width; ++u) {
+      const int strength = std::abs(across[u]);
+      if (strength < threshold_ || strength < kObliqueness * std::abs(along[u])) continue;
+      const int before = std::abs(across[u - 1]);
+      const int after = std::abs(across[u + 1]);
+      if (strength < before || strength <= after) continue;
+      const double bend = before - 2.0 * strength + after;
+      const double offset = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
+      Append(across[u] < 0, {u + offset, v, static_cast<float>(strength)});
+    }
+  }
+
+  // [0]: dark to the right of the edge; [1]: dark to its left.
+  const std::vector<Chain>& chains(bool dark_right) const { return chains_[dark_right ? 0 : 1]; }
+
+ private:
+  void Append(bool dark_right, const ChainPoint& point) {
+    std::vector<Chain>& chains = chains_[dark_right ? 0 : 1];
+    std::vector<int>& at = chain_at_[dark_right ? 0 : 1];
+    const int u = static_cast<int>(std::lround(point.u));
+    int nearest = -1;
+    double smallest = kFollow_px;
+    for (int i = std::max(0, u - 2); i <= std::min(static_cast<int>(at.size()) - 1, u + 2); ++i) {
+      if (at[i] < 0) continue;
+      const ChainPoint& last = chains[at[i]].back();
+      const int rows = point.v - last.v;
+      const double distance = std::abs(last.u - point.u);
+      if (rows < 1 || rows > 1 + kMissingRows || distance > smallest) continue;
+      smallest = distance;
+      nearest = at[i];
+    }
+    if (nearest < 0) {
+      nearest = static_cast<int>(chains.size());
+      chains.emplace_back();
+    }
+    chains[nearest].push_back(point);
+    at[u] = nearest;
+  }
+
+  double threshold_;
+  std::array<std::vector<int>, 2> chain_at_;
+  std::array<std::vector<Chain>, 2> chains_;
+};
+
+// The line u = a + b v through the points [first, last], from the first row to the last.
+EdgeSegment FitLine(const Chain& chain, size_t first, size_t last) {
+  double n = 0.0, sum_v = 0.0, sum_u = 0.0, strength = 0.0;
+  for (size_t i = first; i <= last; ++i) {
+    n += 1.0;
+    sum_v += chain[i].v;
+    sum_u += chain[i].u;
+    strength += chain[i].strength;
+  }
+  const double mean_v = sum_v / n;
+  const double mean_u = sum_u / n;
+  double vv = 0.0, uv = 0.0;
+  for (size_t i = first; i <= last; ++i) {
+    vv += (chain[i].v - mean_v) * (chain[i].v - mean_v);
+    uv += (chain[i].v - mean_v) * (chain[i].u - mean_u);
+  }
+  const double slope = vv > 0.0 ? uv / vv : 0.0;
+  const auto at = [&](int v) { return Vector2d(mean_u + slope * (v - mean_v), v); };
+  return {at(chain[first].v), at(chain[last].v), strength / n / kSobelOfStep};
+}
+
+void Split(const Chain& chain, size_t first, size_t last, double min_length_px,
+           std::vector<EdgeSegment>& out) {
+  const Vector2d p(chain[first].u, chain[first].v);
+  const Vector2d q(chain[last].u, chain[last].v);
+  const double length = (q - p).norm();
+  if (length < min_length_px) return;
+  size_t worst = first;
+  double largest = kBend_px * length;
+  for (size_t i = first + 1; i < last; ++i) {
+    const double distance = std::abs(Cross(q - p, Vector2d(chain[i].u, chain[i].v) - p));
+    if (distance <= largest) continue;
+    largest = distance;
+    worst = i;
+  }
+  if (worst == first) {
+    out.push_back(FitLine(chain, first, last));
+    return;
+  }
+  Split(chain, first, worst, min_length_px, out);
+  Split(chain, worst, last, min_length_px, out);
+}
+
+// Upright edges of an image with these derivatives, downwards: first dark to the right, then to the
+// left.
+std::array<std::vector<EdgeSegment>, 2> UprightSegments(const cv::Mat1s& across,
+                                                        const cv::Mat1s& along,
+                                                        const EdgeSegmentSettings& settings) {
+  ChainTracker tracker(across.cols, kSobelOfStep * settings.min_contrast_dn);
+  for (int v = 1; v + 1 < across.rows; ++v) {
+    tracker.AddRow(v, across.ptr<short>(v), along.ptr<short>(v), across.cols);
+  }
+  std::array<std::vector<EdgeSegment>, 2> segments;
+  for (size_t i = 0; i < 2; ++i) {
+    for (const Chain& chain : tracker.chains(i == 0)) {
+      if (static_cast<double>(chain.size()) < 0.7 * settings.min_length_px) continue;
+      Split(chain, 0, chain.size() - 1, settings.min_length_px, segments[i]);
+    }
+  }
+  return segments;
+}
+
+double Weight(const EdgeSegment& s) {
+  return s.Length() * std::min(s.contrast_dn, 40.0);
+}
+
+void KeepBest(size_t most, std::vector<EdgeSegment>& segments) {
+  std::stable_sort(
+      segments.begin(), segments.end(),
+      [](const EdgeSegment& a, const EdgeSegment& b) { return Weight(a) > Weight(b); });
+  if (segments.size() > most) segments.resize(most);
+}
+
+bool Continues(const EdgeSegment& a, const EdgeSegment& b) {
+  const Vector2d along = (a.to - a.from).normalized();
+  const double gap = along.dot(b.from - a.to);
+  if (gap < -3.0 || gap > a.Length() + b.Length()) return false;
+  const Vector2d whole = (b.to - a.from).normalized();
+  return std::abs(Cross(along, (b.to - b.from).normalized())) < kParallel &&
+         std::abs(Cross(whole, a.to - a.from)) < kCollinear_px &&
+         std::abs(Cross(whole, b.from - a.from)) < kCollinear_px;
+}
+
+void AddJoined(std::vector<EdgeSegment>& segments) {
+  const size_t count = segments.size();
+  for (size_t i = 0; i < count; ++i) {
+    for (size_t j = 0; j < count; ++j) {
+      if (i == j || !Continues(segments[i], segments[j])) continue;
+      segments.push_back({segments[i].from, segments[j].to,
+                          std::min(segments[i].contrast_dn, segments[j].contrast_dn)});
+    }
+  }
+}
+
+EdgeSegment Reversed(const EdgeSegment& s) {
+  return {s.to, s.from, s.contrast_dn};
+}
+
+EdgeSegment Transposed(const EdgeSegment& s) {
+  return {{s.from.y(), s.from.x()}, {s.to.y(), s.to.x()}, s.contrast_dn};
+}
+
+}  // namespace
+
+EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings& settings) {
+  cv::Mat1s du;
+  cv::Mat1s dv;
+  cv::spatialGradient(image, du, dv, 3, cv::BORDER_REPLICATE);
+  const auto upright = UprightSegments(du, dv, settings);
+  const cv::Mat1s du_transposed = du.t();
+  const cv::Mat1s dv_transposed = dv.t();
+  const auto level = UprightSegments(dv_transposed, du_transposed, settings);
+  EdgeSegments all;
+  for (const EdgeSegment& s : level[0]) all[0].push_back(Transposed(s));
+  for (const EdgeSegment& s : upright[1]) all[1].push_back(s);
+  for (const EdgeSegment& s : level[1]) all[2].push_back(Reversed(Transposed(s)));
+  for (const EdgeSegment& s : upright[0]) all[3].push_back(Reversed(s));
+  const auto most = static_cast<size_t>(settings.most_per_side);
+  for (std::vector<EdgeSegment>& segments : all) {
+    KeepBest(most, segments);
+    AddJoined(segments);
+    KeepBest(most, segments);
+  }
+  return all;
+}
+
+Vector2d Meet(const EdgeSegment& a, const EdgeSegment& b) {
+  const Vector2d p = a.to - a.from;
+  const Vector2d q = b.to - b.from;
+  const double area = Cross(p, q);
+  if (std::abs(area) < 1e-6 * p.norm() * q.norm()) return Vector2d::Constant(1e9);
+  return a.from + Cross(b.from - a.from, q) / area * p;
+}
+
+}  // namespace fenestra

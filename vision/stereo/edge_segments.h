@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace fenestra {
+
+/// The sides of a quadrilateral in the order of its corners: side i runs from corner i to i + 1.
+enum class Side { kTop, kRight, kBottom, kLeft };
+inline constexpr std::array<Side, 4> kAllSides = {Side::kTop, Side::kRight, Side::kBottom,
+                                                  Side::kLeft};
+
+/// A straight edge between dark and bright. Who walks from `from` to `to` has the dark on the
+/// right, as on a walk clockwise around something dark (v points down).
+struct EdgeSegment {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero();
+  Eigen::Vector2d to = Eigen::Vector2d::Zero();
+  double contrast_dn = 0.0;
+
+  double Length() const { return (to - from).norm(); }
+};
+
+struct EdgeSegmentSettings {
+  double min_contrast_dn;
+  double min_length_px;
+  int most_per_side;  ///< The longest and strongest are kept.
+};
+
+/// Straight edges by the side of a dark quadrilateral that each may be: a top side is dark below,
+/// a left one dark on its right. An edge at 45° may be listed with both neighbours.
+using EdgeSegments = std::array<std::vector<EdgeSegment>, 4>;
+
+/// Maxima of Sobel's derivative, found with sub-pixel resolution along rows (upright edges) or
+/// columns (level ones), followed from one to the next and split where they bend (Ramer, Douglas
+/// and Peucker; 0.8 px). Pieces of one line are listed both apart and joined across gaps, as what
+/// stands before a frame cuts its sides.
+EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings& settings);
+
+/// The points where two lines meet, each given by two points; far away if they are parallel.
+Eigen::Vector2d Meet(const EdgeSegment& a, const EdgeSegment& b);
+
+}  // namespace fenestra

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "core/calibration.h"
+#include "core/detector.h"
+#include "vision/stereo/edge_stereo_options.h"
+#include "vision/stereo/frame_fit.h"
+#include "vision/stereo/frame_seed.h"
+#include "vision/stereo/rectification.h"
+
+namespace fenestra {
+
+/// A dark-framed window by its edges, fitted as one rectangle to both images.
+///
+///   stage      what                                                         where
+///   rectify    Bouguet's rectification of both images                       rectification.h
+///   segments   straight edges of both, by the side of something dark        edge_segments.h
+///   propose    dark quadrilaterals of the left image                        dark_quadrilateral.h
+///   match      their upright sides in the right image: corners in space     frame_seed.h
+///   fit        edges to sub-pixel in both images as delivered, one          frame_fit.h
+///              rectangle with a border fitted to all of them
+///   choose     the clearest; the others go with it
+///
+/// Estimates are in L, the unrectified left camera, with the fit's covariance: what noise in the
+/// images makes of it, given the calibration. An error of the calibration comes on top.
+/// Pictures in the log: "rectified", "segments", "edge_points".
+class EdgeStereoDetector : public Detector {
+ public:
+  /// Throws InputError for options that Validate refuses and for a calibration that cannot be
+  /// rectified, see StereoRectification.
+  EdgeStereoDetector(const StereoCalibration& calibration, const EdgeStereoOptions& options);
+
+  SensorKind sensor() const override { return SensorKind::kStereo; }
+
+  /// Miss: "no_quadrilateral", "no_stereo_match", or those of FitFrame.
+  Detection Detect(const Observation& observation, StageLog& log) const override;
+
+ private:
+  struct Found {
+    WindowEstimate estimate;
+    FrameFit fit;
+  };
+  std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
+                               const EdgeSegments& right_segments,
+                               const cv::Mat1b& right_image) const;
+  std::optional<Miss> Objection(const FrameRectangle& frame) const;
+  double Score(const FrameSeed& seed, const FrameFit& fit) const;
+
+  EdgeStereoOptions options_;
+  StereoCalibration calibration_;
+  StereoRectification rectification_;
+  FrameLimits limits_;
+  DarknessSettings darkness_;
+  FrameFitSettings fitting_;
+};
+
+}  // namespace fenestra

@@ -1,0 +1,101 @@
+#include "vision/stereo/edge_stereo_options.h"
+
+#include <numbers>
+
+#include "core/input_error.h"
+
+namespace fenestra {
+namespace {
+
+using Options = EdgeStereoOptions;
+using Table = ParameterTable<Options>;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+#define FENESTRA_FIELD(field) \
+  [](Options & o) -> auto& {  \
+    return o.field;           \
+  }
+
+void AddShape(Table& table) {
+  table
+      .Number("rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
+              "0 shows only what both sensors saw, 1 all that either saw")
+      .Number("nearest_m", FENESTRA_FIELD(nearest_m), {0.1, 1000.0},
+              "smallest depth that is searched")
+      .Number("farthest_m", FENESTRA_FIELD(farthest_m), {0.1, 1000.0},
+              "largest depth that is searched")
+      .Number("min_side_m", FENESTRA_FIELD(min_side_m), {0.01, 1000.0}, "smallest window side")
+      .Number("max_side_m", FENESTRA_FIELD(max_side_m), {0.01, 1000.0}, "largest window side")
+      .Number("max_side_ratio", FENESTRA_FIELD(max_side_ratio), {1.0, 100.0},
+              "longest side over shortest side")
+      .Number("max_skew_deg", FENESTRA_FIELD(max_skew_rad), {0.0, 90.0, kDegree},
+              "departure of a corner from a right angle, before the fit")
+      .Number("max_taper", FENESTRA_FIELD(max_taper), {0.0, 2.0},
+              "relative difference of opposite sides, before the fit");
+}
+
+void AddLook(Table& table) {
+  table
+      .Number("min_contrast_dn", FENESTRA_FIELD(min_contrast_dn), {1.0, 255.0},
+              "weakest step of an edge")
+      .Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "grey value without light")
+      .Number("min_segment_px", FENESTRA_FIELD(min_segment_px), {4.0, 1000.0},
+              "shortest piece of a straight edge")
+      .Integer("most_segments", FENESTRA_FIELD(most_segments), {4.0, 256.0},
+               "straight edges that are kept, for each side")
+      .Integer("most_candidates", FENESTRA_FIELD(most_candidates), {1.0, 100.0},
+               "rough rectangles that are measured")
+      .Number("min_side_support", FENESTRA_FIELD(min_side_support), {0.0, 1.0},
+              "share of each side that must be seen")
+      .Number("min_clarity", FENESTRA_FIELD(min_clarity), {0.0, 1.0},
+              "how much darker the frame must be than what surrounds it; 1: four times")
+      .Number("min_border_m", FENESTRA_FIELD(min_border_m), {0.001, 10.0},
+              "narrowest frame whose inner edge is used")
+      .Number("max_border_share", FENESTRA_FIELD(max_border_share), {0.01, 0.49},
+              "widest frame, as a share of the shorter side");
+}
+
+void AddPrior(Table& table) {
+  table
+      .Number("expected_width_m", FENESTRA_FIELD(expected_width_m), {0.0, 1000.0},
+              "outer width that the window is known to have; 0: not known")
+      .Number("expected_height_m", FENESTRA_FIELD(expected_height_m), {0.0, 1000.0},
+              "outer height that the window is known to have; 0: not known")
+      .Number("expected_size_sigma_m", FENESTRA_FIELD(expected_size_sigma_m), {1e-6, 10.0},
+              "standard deviation of that knowledge");
+}
+
+#undef FENESTRA_FIELD
+
+}  // namespace
+
+const Table& EdgeStereoParameters() {
+  static const Table table = [] {
+    Table made;
+    AddShape(made);
+    AddLook(made);
+    AddPrior(made);
+    return made;
+  }();
+  return table;
+}
+
+void Validate(const Options& options) {
+  std::vector<InputFault> faults;
+  const auto demand = [&faults](bool holds, const std::string& message) {
+    if (!holds) faults.push_back({"edge-stereo", 0, 0, message});
+  };
+  const Table& table = EdgeStereoParameters();
+  for (const ParameterInfo& info : table.infos()) {
+    const auto objection = info.Objection(table.Get(options, info.name));
+    demand(!objection, objection.value_or(""));
+  }
+  demand(options.nearest_m < options.farthest_m, "nearest_m must be less than farthest_m");
+  demand(options.min_side_m < options.max_side_m, "min_side_m must be less than max_side_m");
+  demand((options.expected_width_m > 0.0) == (options.expected_height_m > 0.0),
+         "expected_width_m and expected_height_m must be given both or not at all");
+  if (!faults.empty()) throw InputError(std::move(faults));
+}
+
+}  // namespace fenestra

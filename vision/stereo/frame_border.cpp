@@ -1,0 +1,70 @@
+#include "vision/stereo/frame_border.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fenestra {
+namespace {
+
+constexpr int kPlaces = 16;
+constexpr double kEndShare = 0.1;
+// From the outer edge, so that its blur is not taken for the border's end.
+constexpr double kClear_px = 2.0;
+
+// Mean grey value along a side of the inner rectangle; nullopt where too little is in the image.
+std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& frame, Side side) {
+  double sum = 0.0;
+  int count = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double share = kEndShare + (1.0 - 2.0 * kEndShare) * (i + 0.5) / kPlaces;
+    const auto pixel = view.camera.Project(view.X_CL * frame.PointOn(side, Border::kInner, share));
+    if (!pixel) continue;
+    const int u = static_cast<int>(std::lround(pixel->x()));
+    const int v = static_cast<int>(std::lround(pixel->y()));
+    if (u < 0 || v < 0 || u >= view.image.cols || v >= view.image.rows) continue;
+    sum += view.image(v, u);
+    ++count;
+  }
+  if (2 * count < kPlaces) return std::nullopt;
+  return sum / count;
+}
+
+}  // namespace
+
+std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectangle& frame,
+                                      const BorderSearch& search) {
+  // The size of a pixel on the frame, where it is seen most obliquely.
+  const double distance_m = frame.p_LO.norm();
+  const double cosine = std::max(0.3, std::abs(frame.R_LO.col(2).dot(frame.p_LO)) / distance_m);
+  const double pixel_m = distance_m / (view.camera.parameters().fx_px * cosine);
+  const double step_m = 0.5 * pixel_m;
+  const double first_m = std::max(search.smallest_m, kClear_px * pixel_m);
+  const double last_m = search.largest_share * std::min(frame.width_m, frame.height_m);
+  const int count = static_cast<int>((last_m - first_m) / step_m);
+  if (count < 6) return std::nullopt;
+  FrameRectangle inset = frame;
+  std::array<std::vector<std::optional<double>>, 4> profiles;
+  for (int i = 0; i < count; ++i) {
+    inset.border_m = first_m + i * step_m;
+    for (const Side side : kAllSides) {
+      profiles[static_cast<size_t>(side)].push_back(MeanAlong(view, inset, side));
+    }
+  }
+  std::optional<BorderFound> best;
+  const int half = 2;  // A pixel on either side.
+  for (int i = half; i + half < count; ++i) {
+    BorderFound found{.border_m = first_m + i * step_m, .brighter = {}, .contrast_dn = 0.0};
+    for (size_t side = 0; side < 4; ++side) {
+      const auto& outer = profiles[side][i - half];
+      const auto& inner = profiles[side][i + half];
+      if (!outer || !inner) continue;
+      found.brighter[side] = *inner > *outer ? Brighter::kInside : Brighter::kOutside;
+      found.contrast_dn += 0.25 * std::abs(*inner - *outer);
+    }
+    if (!best || found.contrast_dn > best->contrast_dn) best = found;
+  }
+  if (!best || best->contrast_dn < search.min_contrast_dn) return std::nullopt;
+  return best;
+}
+
+}  // namespace fenestra

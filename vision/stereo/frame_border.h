@@ -1,0 +1,28 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <optional>
+
+#include "vision/stereo/edge_points.h"
+
+namespace fenestra {
+
+struct BorderSearch {
+  double smallest_m;
+  double largest_share;    ///< Of the frame's shorter side.
+  double min_contrast_dn;  ///< Mean over the sides.
+};
+
+struct BorderFound {
+  double border_m;
+  std::array<Brighter, 4> brighter;  ///< By side.
+  double contrast_dn;                ///< Mean over the sides.
+};
+
+/// Where the frame ends and the opening begins: the inset at which the grey values, averaged along
+/// each side, change most, as summed over the four sides. nullopt where they hardly change, as
+/// in front of a dark room. Right to a pixel.
+std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectangle& frame,
+                                      const BorderSearch& search);
+
+}  // namespace fenestra

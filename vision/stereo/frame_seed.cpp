@@ -1,0 +1,93 @@
+#include "vision/stereo/frame_seed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/stereo/window_rectangle.h"
+
+namespace fenestra {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kLeastCommonRows = 0.4;
+constexpr double kLeastClarity = 0.3;  // Of that in the left image.
+constexpr double kMostWarp = 0.1;      // Distance of the diagonals' middles over the longer side.
+
+// Disparities of a side's upper and lower end.
+struct SideDisparity {
+  double upper_px;
+  double lower_px;
+};
+
+double ColumnAt(const EdgeSegment& s, double v) {
+  return s.from.x() + (v - s.from.y()) / (s.to.y() - s.from.y()) * (s.to.x() - s.from.x());
+}
+
+std::vector<SideDisparity> Matches(const Vector2d& upper, const Vector2d& lower,
+                                   const std::vector<EdgeSegment>& candidates, double smallest_px,
+                                   double largest_px) {
+  std::vector<SideDisparity> matches;
+  for (const EdgeSegment& s : candidates) {
+    const double first = std::min(s.from.y(), s.to.y());
+    const double last = std::max(s.from.y(), s.to.y());
+    const double common = std::min(last, lower.y()) - std::max(first, upper.y());
+    if (common < kLeastCommonRows * std::min(last - first, lower.y() - upper.y())) continue;
+    if (common < 0.25 * (lower.y() - upper.y())) continue;
+    const SideDisparity d{upper.x() - ColumnAt(s, upper.y()), lower.x() - ColumnAt(s, lower.y())};
+    if (std::min(d.upper_px, d.lower_px) < smallest_px) continue;
+    if (std::max(d.upper_px, d.lower_px) > largest_px) continue;
+    matches.push_back(d);
+  }
+  return matches;
+}
+
+bool IsPlausible(const std::array<Vector3d, 4>& p_FV, const FrameLimits& limits) {
+  WindowEstimate estimate;
+  estimate.p_CV = p_FV;
+  const WindowShape shape = MeasureShape(estimate);
+  const double shorter = std::min(shape.width_m, shape.height_m);
+  const double longer = std::max(shape.width_m, shape.height_m);
+  if (shorter < limits.min_side_m || longer > limits.max_side_m) return false;
+  if (longer > limits.max_side_ratio * shorter) return false;
+  if (shape.skew_rad > limits.max_skew_rad || shape.taper > limits.max_taper) return false;
+  const Vector3d gap = 0.5 * (p_FV[0] + p_FV[2]) - 0.5 * (p_FV[1] + p_FV[3]);
+  return gap.norm() < kMostWarp * longer;
+}
+
+}  // namespace
+
+std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegments& right_segments,
+                                 const cv::Mat1b& right_image, const RectifiedCamera& camera,
+                                 const FrameLimits& limits, const DarknessSettings& darkness) {
+  const Quadrilateral& q = left.corners_px;
+  const double smallest_px = camera.DisparityFromDepth(limits.farthest_m);
+  const double largest_px = camera.DisparityFromDepth(limits.nearest_m);
+  const auto lefts = Matches(q[0], q[3], right_segments[static_cast<size_t>(Side::kLeft)],
+                             smallest_px, largest_px);
+  const auto rights = Matches(q[1], q[2], right_segments[static_cast<size_t>(Side::kRight)],
+                              smallest_px, largest_px);
+  std::vector<FrameSeed> seeds;
+  for (const SideDisparity& l : lefts) {
+    for (const SideDisparity& r : rights) {
+      const std::array<double, 4> d = {l.upper_px, r.upper_px, r.lower_px, l.lower_px};
+      FrameSeed seed;
+      Quadrilateral right;
+      for (size_t i = 0; i < 4; ++i) {
+        seed.p_FV[i] = camera.DepthFromDisparity(d[i]) * camera.Ray(q[i]);
+        right[i] = q[i] - Vector2d(d[i], 0.0);
+      }
+      if (!IsPlausible(seed.p_FV, limits)) continue;
+      const double clarity = DarkInside(right_image, right, darkness);
+      if (clarity < kLeastClarity * left.clarity) continue;
+      seed.clarity = 0.5 * (left.clarity + clarity);
+      seeds.push_back(seed);
+    }
+  }
+  std::stable_sort(seeds.begin(), seeds.end(),
+                   [](const FrameSeed& a, const FrameSeed& b) { return a.clarity > b.clarity; });
+  return seeds;
+}
+
+}  // namespace fenestra

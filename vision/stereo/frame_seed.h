@@ -1,0 +1,38 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "vision/stereo/dark_quadrilateral.h"
+#include "vision/stereo/edge_segments.h"
+#include "vision/stereo/frame_rectangle.h"
+#include "vision/stereo/rectified_camera.h"
+
+namespace fenestra {
+
+/// What a frame may be like in space.
+struct FrameLimits {
+  double nearest_m;
+  double farthest_m;
+  double min_side_m;
+  double max_side_m;
+  double max_side_ratio;  ///< Longer over shorter side.
+  double max_skew_rad;    ///< Departure of a corner from a right angle.
+  double max_taper;       ///< Relative difference of opposite sides.
+};
+
+/// A dark quadrilateral in both views that may be a rectangle in space.
+struct FrameSeed {
+  std::array<Eigen::Vector3d, 4> p_FV;  ///< In the rectified left camera.
+  double clarity = 0.0;                 ///< Mean of both views' DarkInside.
+};
+
+/// Finds the upright sides of a quadrilateral of the rectified left image again in the right one.
+/// Each corner's disparity is that of its upright side; every pair of edges of the right image that
+/// makes a plausible rectangle in space of them, and that is dark in the right image too, is a
+/// seed. The clearest first.
+std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegments& right_segments,
+                                 const cv::Mat1b& right_image, const RectifiedCamera& camera,
+                                 const FrameLimits& limits, const DarknessSettings& darkness);
+
+}  // namespace fenestra
