@@ -9,13 +9,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int kPlaces = 16;         // Along each side.
-constexpr double kEndShare = 0.06;  // Left out at each end of a side.
 constexpr size_t kMostSegments = 256;
 constexpr double kCornerReach_px = 6.0;
 constexpr double kCornerShare = 0.25;
 constexpr double kLeastSine = 0.4;  // Of the angle at a corner: 24°.
-const double kFullContrast = std::log(4.0);
 
 using SegmentSet = std::bitset<kMostSegments>;
 
@@ -23,26 +20,49 @@ double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Whether one side ends where the next one begins.
-bool MakeCorner(const EdgeSegment& side, const EdgeSegment& next) {
-  const Vector2d p = (side.to - side.from).normalized();
-  const Vector2d q = (next.to - next.from).normalized();
-  if (Cross(p, q) < kLeastSine) return false;
-  const Vector2d corner = Meet(side, next);
-  return (corner - side.to).norm() <= std::max(kCornerReach_px, kCornerShare * side.Length()) &&
-         (corner - next.from).norm() <= std::max(kCornerReach_px, kCornerShare * next.Length());
+double Reach(const EdgeSegment& s) {
+  return std::max(kCornerReach_px, kCornerShare * s.Length());
 }
 
-std::vector<SegmentSet> Corners(const std::vector<EdgeSegment>& sides,
-                                const std::vector<EdgeSegment>& partners, bool partner_is_next) {
-  std::vector<SegmentSet> sets(sides.size());
-  for (size_t i = 0; i < sides.size(); ++i) {
-    for (size_t j = 0; j < std::min(kMostSegments, partners.size()); ++j) {
-      sets[i][j] =
-          partner_is_next ? MakeCorner(sides[i], partners[j]) : MakeCorner(partners[j], sides[i]);
+// How far a point is beyond the ends of a segment of its line.
+double Beyond(const EdgeSegment& s, const Vector2d& point) {
+  const Vector2d along = (s.to - s.from).normalized();
+  return std::max(along.dot(s.from - point), along.dot(point - s.to));
+}
+
+// Whether an upright side ends where it meets a level one. The level one may go on: joints and
+// lintels do so in line with the frame.
+bool MakeCorner(const EdgeSegment& upright, const Vector2d& end, const EdgeSegment& level) {
+  const Vector2d p = (upright.to - upright.from).normalized();
+  const Vector2d q = (level.to - level.from).normalized();
+  if (std::abs(Cross(p, q)) < kLeastSine) return false;
+  const Vector2d corner = Meet(upright, level);
+  return (corner - end).norm() <= Reach(upright) && Beyond(level, corner) <= Reach(level);
+}
+
+// The level segments that each upright one meets at this end.
+std::vector<SegmentSet> Corners(const std::vector<EdgeSegment>& uprights,
+                                Vector2d EdgeSegment::* end,
+                                const std::vector<EdgeSegment>& levels) {
+  std::vector<SegmentSet> sets(uprights.size());
+  for (size_t i = 0; i < uprights.size(); ++i) {
+    for (size_t j = 0; j < std::min(kMostSegments, levels.size()); ++j) {
+      sets[i][j] = MakeCorner(uprights[i], uprights[i].*end, levels[j]);
     }
   }
   return sets;
+}
+
+// DarkInside, or 0 as soon as one side is not dark enough.
+double Clarity(const cv::Mat1b& image, const Quadrilateral& q, const DarknessSettings& settings,
+               double least) {
+  double sum = 0.0;
+  for (const size_t i : {3, 1, 0, 2}) {
+    const double clarity = DarkOnTheRight(image, q[i], q[(i + 1) % 4], settings);
+    if (clarity < least) return 0.0;
+    sum += clarity;
+  }
+  return 0.25 * sum;
 }
 
 bool IsConvex(const Quadrilateral& q) {
@@ -51,29 +71,6 @@ bool IsConvex(const Quadrilateral& q) {
     if (Cross(p - q[i], q[(i + 2) % 4] - p) <= 0.0) return false;
   }
   return true;
-}
-
-// Grey value in the middle of three places along a ray from an edge; -1 outside the image.
-double Grey(const cv::Mat1b& image, const Vector2d& p) {
-  const int u = static_cast<int>(std::lround(p.x()));
-  const int v = static_cast<int>(std::lround(p.y()));
-  if (u < 0 || v < 0 || u >= image.cols || v >= image.rows) return -1.0;
-  return image(v, u);
-}
-
-double Contrast(const cv::Mat1b& image, const Vector2d& p, const Vector2d& inwards,
-                const DarknessSettings& settings) {
-  const double near = 0.5 * settings.reach_px;
-  const double far = settings.reach_px;
-  const double in_a = Grey(image, p + near * inwards);
-  const double in_b = Grey(image, p + far * inwards);
-  const double out_a = Grey(image, p - near * inwards);
-  const double out_b = Grey(image, p - far * inwards);
-  if (std::min({in_a, in_b, out_a, out_b}) < 0.0) return 0.0;
-  const double inside = 0.5 * (in_a + in_b) - settings.black_dn;
-  const double outside = 0.5 * (out_a + out_b) - settings.black_dn;
-  if (outside - inside < 3.0 * settings.noise_dn) return 0.0;
-  return std::min(1.0, std::log(outside / std::max(1.0, inside)) / kFullContrast);
 }
 
 bool NearlySame(const Quadrilateral& a, const Quadrilateral& b) {
@@ -85,30 +82,15 @@ bool NearlySame(const Quadrilateral& a, const Quadrilateral& b) {
 
 }  // namespace
 
-double DarkInside(const cv::Mat1b& image, const Quadrilateral& corners_px,
-                  const DarknessSettings& settings) {
-  double sum = 0.0;
-  for (size_t i = 0; i < 4; ++i) {
-    const Vector2d from = corners_px[i];
-    const Vector2d side = corners_px[(i + 1) % 4] - from;
-    const Vector2d inwards = Vector2d(-side.y(), side.x()).normalized();
-    for (int k = 0; k < kPlaces; ++k) {
-      const double share = kEndShare + (1.0 - 2.0 * kEndShare) * (k + 0.5) / kPlaces;
-      sum += Contrast(image, from + share * side, inwards, settings);
-    }
-  }
-  return sum / (4 * kPlaces);
-}
-
 std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
                                                       const EdgeSegments& segments,
                                                       const DarknessSettings& settings,
-                                                      size_t most) {
+                                                      double min_darkness, size_t most) {
   const auto& [tops, rights, bottoms, lefts] = segments;
-  const auto tops_of_lefts = Corners(lefts, tops, true);
-  const auto bottoms_of_lefts = Corners(lefts, bottoms, false);
-  const auto tops_of_rights = Corners(rights, tops, false);
-  const auto bottoms_of_rights = Corners(rights, bottoms, true);
+  const auto tops_of_lefts = Corners(lefts, &EdgeSegment::to, tops);
+  const auto bottoms_of_lefts = Corners(lefts, &EdgeSegment::from, bottoms);
+  const auto tops_of_rights = Corners(rights, &EdgeSegment::from, tops);
+  const auto bottoms_of_rights = Corners(rights, &EdgeSegment::to, bottoms);
   std::vector<DarkQuadrilateral> found;
   for (size_t l = 0; l < lefts.size(); ++l) {
     for (size_t r = 0; r < rights.size(); ++r) {
@@ -121,7 +103,9 @@ std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
           if (!common_bottoms[b]) continue;
           const Quadrilateral q = {Meet(lefts[l], tops[t]), Meet(tops[t], rights[r]),
                                    Meet(rights[r], bottoms[b]), Meet(bottoms[b], lefts[l])};
-          if (IsConvex(q)) found.push_back({q, DarkInside(image, q, settings)});
+          if (!IsConvex(q)) continue;
+          const double clarity = Clarity(image, q, settings, min_darkness);
+          if (clarity > 0.0) found.push_back({q, clarity});
         }
       }
     }

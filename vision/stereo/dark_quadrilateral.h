@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "vision/stereo/darkness.h"
 #include "vision/stereo/edge_segments.h"
 #include "vision/stereo/quadrilateral.h"
 
@@ -15,23 +16,11 @@ struct DarkQuadrilateral {
   double clarity = 0.0;
 };
 
-struct DarknessSettings {
-  double black_dn;  ///< Grey value without light.
-  double noise_dn;  ///< What is darker by less than three times this is not darker.
-  double reach_px;  ///< Grey values are compared up to here on either side of an edge.
-};
-
-/// How clearly a quadrilateral's sides part dark within from bright without: mean over its sides
-/// and places along them of ln(bright / dark) / ln 4, at most 1, 0 where it is not darker. Places
-/// outside the image count as 0.
-double DarkInside(const cv::Mat1b& image, const Quadrilateral& corners_px,
-                  const DarknessSettings& settings);
-
-/// Convex quadrilaterals whose four sides are edges that reach near to their corners, the clearest
-/// first; of those that are nearly the same only the clearest, and at most `most` of them.
+/// Convex quadrilaterals whose four sides are edges that reach near to their corners and are each at
+/// least so dark on their inside, the clearest first; of those that are nearly the same only the clearest, and at most `most` of them.
 std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
                                                       const EdgeSegments& segments,
                                                       const DarknessSettings& settings,
-                                                      size_t most);
+                                                      double min_darkness, size_t most);
 
 }  // namespace fenestra

@@ -16,6 +16,8 @@ constexpr int kMissingRows = 2;
 constexpr double kObliqueness = 0.7;  // tan 35°: neighbouring kinds overlap by 20°.
 constexpr double kCollinear_px = 1.2;
 constexpr double kParallel = 0.06;
+// Of the less clear part; where it is less, the gap shows something else.
+constexpr double kJoinedDarkness = 0.6;
 
 double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -24,7 +26,6 @@ double Cross(const Vector2d& a, const Vector2d& b) {
 struct ChainPoint {
   double u;
   int v;
-  float strength;
 };
 using Chain = std::vector<ChainPoint>;
 
@@ -44,7 +45,7 @@ class ChainTracker {
       if (strength < before || strength <= after) continue;
       const double bend = before - 2.0 * strength + after;
       const double offset = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-      Append(across[u] < 0, {u + offset, v, static_cast<float>(strength)});
+      Append(across[u] < 0, {u + offset, v});
     }
   }
 
@@ -82,12 +83,11 @@ class ChainTracker {
 
 // The line u = a + b v through the points [first, last], from the first row to the last.
 EdgeSegment FitLine(const Chain& chain, size_t first, size_t last) {
-  double n = 0.0, sum_v = 0.0, sum_u = 0.0, strength = 0.0;
+  double n = 0.0, sum_v = 0.0, sum_u = 0.0;
   for (size_t i = first; i <= last; ++i) {
     n += 1.0;
     sum_v += chain[i].v;
     sum_u += chain[i].u;
-    strength += chain[i].strength;
   }
   const double mean_v = sum_v / n;
   const double mean_u = sum_u / n;
@@ -98,7 +98,7 @@ EdgeSegment FitLine(const Chain& chain, size_t first, size_t last) {
   }
   const double slope = vv > 0.0 ? uv / vv : 0.0;
   const auto at = [&](int v) { return Vector2d(mean_u + slope * (v - mean_v), v); };
-  return {at(chain[first].v), at(chain[last].v), strength / n / kSobelOfStep};
+  return {at(chain[first].v), at(chain[last].v), 0.0};
 }
 
 void Split(const Chain& chain, size_t first, size_t last, double min_length_px,
@@ -128,7 +128,7 @@ void Split(const Chain& chain, size_t first, size_t last, double min_length_px,
 std::array<std::vector<EdgeSegment>, 2> UprightSegments(const cv::Mat1s& across,
                                                         const cv::Mat1s& along,
                                                         const EdgeSegmentSettings& settings) {
-  ChainTracker tracker(across.cols, kSobelOfStep * settings.min_contrast_dn);
+  ChainTracker tracker(across.cols, kSobelOfStep * settings.darkness.min_contrast_dn);
   for (int v = 1; v + 1 < across.rows; ++v) {
     tracker.AddRow(v, across.ptr<short>(v), along.ptr<short>(v), across.cols);
   }
@@ -143,7 +143,7 @@ std::array<std::vector<EdgeSegment>, 2> UprightSegments(const cv::Mat1s& across,
 }
 
 double Weight(const EdgeSegment& s) {
-  return s.Length() * std::min(s.contrast_dn, 40.0);
+  return s.Length() * s.darkness;
 }
 
 void KeepBest(size_t most, std::vector<EdgeSegment>& segments) {
@@ -154,32 +154,59 @@ void KeepBest(size_t most, std::vector<EdgeSegment>& segments) {
 }
 
 bool Continues(const EdgeSegment& a, const EdgeSegment& b) {
-  const Vector2d along = (a.to - a.from).normalized();
-  const double gap = along.dot(b.from - a.to);
-  if (gap < -3.0 || gap > a.Length() + b.Length()) return false;
+  const Vector2d between = b.from - a.to;
+  const Vector2d side = a.to - a.from;
+  // Most pairs fail here, at the price of no root.
+  if (std::pow(Cross(side, between), 2) > 0.01 * side.squaredNorm() * between.squaredNorm() +
+                                              4.0 * side.squaredNorm()) {
+    return false;
+  }
+  const Vector2d along = side.normalized();
+  const double gap = along.dot(between);
+  if (gap < -3.0 || gap > 0.5 * (a.Length() + b.Length())) return false;
   const Vector2d whole = (b.to - a.from).normalized();
   return std::abs(Cross(along, (b.to - b.from).normalized())) < kParallel &&
          std::abs(Cross(whole, a.to - a.from)) < kCollinear_px &&
          std::abs(Cross(whole, b.from - a.from)) < kCollinear_px;
 }
 
-void AddJoined(std::vector<EdgeSegment>& segments) {
-  const size_t count = segments.size();
-  for (size_t i = 0; i < count; ++i) {
-    for (size_t j = 0; j < count; ++j) {
-      if (i == j || !Continues(segments[i], segments[j])) continue;
-      segments.push_back({segments[i].from, segments[j].to,
-                          std::min(segments[i].contrast_dn, segments[j].contrast_dn)});
+std::vector<EdgeSegment> Joined(const cv::Mat1b& image, const std::vector<EdgeSegment>& segments,
+                                const DarknessSettings& settings) {
+  std::vector<EdgeSegment> joined;
+  for (const EdgeSegment& a : segments) {
+    for (const EdgeSegment& b : segments) {
+      if (&a == &b || !Continues(a, b)) continue;
+      EdgeSegment both{a.from, b.to, 0.0};
+      both.darkness = DarkOnTheRight(image, both.from, both.to, settings);
+      if (both.darkness >= kJoinedDarkness * std::min(a.darkness, b.darkness)) {
+        joined.push_back(both);
+      }
     }
   }
+  return joined;
+}
+
+// Keeps the clear ones and adds joined ones.
+void Finish(const cv::Mat1b& image, const EdgeSegmentSettings& settings,
+            std::vector<EdgeSegment>& segments) {
+  for (EdgeSegment& s : segments) {
+    s.darkness = DarkOnTheRight(image, s.from, s.to, settings.darkness);
+  }
+  std::erase_if(segments,
+                [&](const EdgeSegment& s) { return s.darkness < settings.min_darkness; });
+  const auto most = static_cast<size_t>(settings.most_per_side);
+  KeepBest(most, segments);
+  std::vector<EdgeSegment> joined = Joined(image, segments, settings.darkness);
+  KeepBest(most / 4, joined);
+  segments.insert(segments.end(), joined.begin(), joined.end());
 }
 
 EdgeSegment Reversed(const EdgeSegment& s) {
-  return {s.to, s.from, s.contrast_dn};
+  return {s.to, s.from, s.darkness};
 }
 
 EdgeSegment Transposed(const EdgeSegment& s) {
-  return {{s.from.y(), s.from.x()}, {s.to.y(), s.to.x()}, s.contrast_dn};
+  return {{s.from.y(), s.from.x()}, {s.to.y(), s.to.x()}, s.darkness};
 }
 
 }  // namespace
@@ -197,12 +224,7 @@ EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings&
   for (const EdgeSegment& s : upright[1]) all[1].push_back(s);
   for (const EdgeSegment& s : level[1]) all[2].push_back(Reversed(Transposed(s)));
   for (const EdgeSegment& s : upright[0]) all[3].push_back(Reversed(s));
-  const auto most = static_cast<size_t>(settings.most_per_side);
-  for (std::vector<EdgeSegment>& segments : all) {
-    KeepBest(most, segments);
-    AddJoined(segments);
-    KeepBest(most, segments);
-  }
+  for (std::vector<EdgeSegment>& segments : all) Finish(image, settings, segments);
   return all;
 }
 

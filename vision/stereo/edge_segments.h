@@ -5,6 +5,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "vision/stereo/darkness.h"
+
 namespace fenestra {
 
 /// The sides of a quadrilateral in the order of its corners: side i runs from corner i to i + 1.
@@ -17,15 +19,16 @@ inline constexpr std::array<Side, 4> kAllSides = {Side::kTop, Side::kRight, Side
 struct EdgeSegment {
   Eigen::Vector2d from = Eigen::Vector2d::Zero();
   Eigen::Vector2d to = Eigen::Vector2d::Zero();
-  double contrast_dn = 0.0;
+  double darkness = 0.0;  ///< DarkOnTheRight.
 
   double Length() const { return (to - from).norm(); }
 };
 
 struct EdgeSegmentSettings {
-  double min_contrast_dn;
   double min_length_px;
-  int most_per_side;  ///< The longest and strongest are kept.
+  double min_darkness;
+  int most_per_side;  ///< The longest and clearest are kept.
+  DarknessSettings darkness;
 };
 
 /// Straight edges by the side of a dark quadrilateral that each may be: a top side is dark below,
@@ -35,7 +38,7 @@ using EdgeSegments = std::array<std::vector<EdgeSegment>, 4>;
 /// Maxima of Sobel's derivative, found with sub-pixel resolution along rows (upright edges) or
 /// columns (level ones), followed from one to the next and split where they bend (Ramer, Douglas
 /// and Peucker; 0.8 px). Pieces of one line are listed both apart and joined across gaps, as what
-/// stands before a frame cuts its sides.
+/// stands before a frame cuts its sides; a joined one must be as clear in the gap.
 EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings& settings);
 
 /// The points where two lines meet, each given by two points; far away if they are parallel.

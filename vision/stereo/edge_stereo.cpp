@@ -34,10 +34,6 @@ const StereoObservation& StereoPart(const Observation& observation) {
   return *stereo;
 }
 
-double Mean(const std::array<double, 4>& values) {
-  return 0.25 * (values[0] + values[1] + values[2] + values[3]);
-}
-
 cv::Mat3b DrawSegments(const cv::Mat1b& image, const EdgeSegments& segments,
                        const std::vector<DarkQuadrilateral>& candidates) {
   cv::Mat3b picture;
@@ -61,6 +57,26 @@ cv::Mat3b DrawSegments(const cv::Mat1b& image, const EdgeSegments& segments,
   return picture;
 }
 
+// Both images as delivered, side by side; edge points that the frame explains green, others red.
+cv::Mat3b DrawEdgePoints(const std::array<CameraView, 2>& views, const FrameFit& fit) {
+  cv::Mat1b both;
+  cv::hconcat(views[0].image, views[1].image, both);
+  cv::Mat3b picture;
+  cv::cvtColor(both, picture, cv::COLOR_GRAY2BGR);
+  for (size_t view = 0; view < 2; ++view) {
+    for (size_t i = 0; i < fit.points[view].size(); ++i) {
+      const Eigen::Vector2d& p = fit.points[view][i].pixel;
+      const cv::Point place(static_cast<int>(std::lround(p.x())) +
+                                static_cast<int>(view) * views[0].image.cols,
+                            static_cast<int>(std::lround(p.y())));
+      const cv::Scalar colour =
+          fit.adjustment.is_inlier[view][i] ? cv::Scalar(80, 220, 80) : cv::Scalar(60, 60, 255);
+      cv::circle(picture, place, 1, colour, cv::FILLED);
+    }
+  }
+  return picture;
+}
+
 }  // namespace
 
 EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
@@ -76,14 +92,14 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
               .max_skew_rad = options.max_skew_rad,
               .max_taper = options.max_taper},
       darkness_{
-          .black_dn = options.black_dn, .noise_dn = options.min_contrast_dn / 3.0, .reach_px = 4.0},
+          .black_dn = options.black_dn, .min_contrast_dn = options.min_contrast_dn, .reach_px = 4.0},
       fitting_{.min_contrast_dn = options.min_contrast_dn,
                .reach_px = kReach_px,
                .min_side_support = options.min_side_support,
                .border = {.smallest_m = options.min_border_m,
                           .largest_share = options.max_border_share,
                           .min_contrast_dn = options.min_contrast_dn},
-               .prior = Prior(options)} {}
+               .size = Prior(options)} {}
 
 Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   const StereoObservation& seen = StereoPart(observation);
@@ -94,16 +110,17 @@ Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& l
               {picture_views[0], picture_views[1]});
 
   log.Begin("segments");
-  const EdgeSegmentSettings settings{.min_contrast_dn = options_.min_contrast_dn,
-                                     .min_length_px = options_.min_segment_px,
-                                     .most_per_side = options_.most_segments};
+  const EdgeSegmentSettings settings{.min_length_px = options_.min_segment_px,
+                                     .min_darkness = options_.min_darkness,
+                                     .most_per_side = options_.most_segments,
+                                     .darkness = darkness_};
   const EdgeSegments left_segments = FindEdgeSegments(pair.left, settings);
   const EdgeSegments right_segments = FindEdgeSegments(pair.right, settings);
 
   log.Begin("propose");
-  auto candidates = FindDarkQuadrilaterals(pair.left, left_segments, darkness_,
-                                           static_cast<size_t>(4 * options_.most_candidates));
-  std::erase_if(candidates, [&](const auto& q) { return q.clarity < options_.min_clarity; });
+  const auto candidates =
+      FindDarkQuadrilaterals(pair.left, left_segments, darkness_, options_.min_darkness,
+                             static_cast<size_t>(4 * options_.most_candidates));
   log.Picture("segments", [&] { return DrawSegments(pair.left, left_segments, candidates); },
               {picture_views[0]});
   if (candidates.empty()) {
@@ -124,36 +141,68 @@ Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& l
   const std::array<CameraView, 2> views = {
       CameraView{calibration_.left, Pose(), seen.left},
       CameraView{calibration_.right, calibration_.X_RL, seen.right}};
-  std::vector<WindowEstimate> found;
-  std::optional<Miss> first_objection;
+  Detection detection = FitBest(views, seeds, log);
+  log.End();
+  return detection;
+}
+
+Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
+                                      const std::vector<FrameSeed>& seeds, StageLog& log) const {
+  std::vector<Candidate> candidates;
   for (const FrameSeed& seed : seeds) {
     std::array<Eigen::Vector3d, 4> p_LV;
     for (size_t i = 0; i < 4; ++i) p_LV[i] = rectification_.R_LF() * seed.p_FV[i];
-    const auto result = FitFrame(views, FrameRectangle::FromCorners(p_LV), fitting_);
+    FrameFitter fitter(views, fitting_);
+    auto rough = fitter.FitRoughly(FrameRectangle::FromCorners(p_LV));
+    if (!rough) continue;
+    const double score = Score(views[0], seed, *rough);
+    candidates.push_back({seed, std::move(fitter), std::move(*rough), score});
+  }
+  if (candidates.empty()) return Miss{"no_edges", "too few edge points to fix a rectangle"};
+  const auto by_score = [](const auto& a, const auto& b) { return a.score > b.score; };
+  std::stable_sort(candidates.begin(), candidates.end(), by_score);
+
+  if (getenv("EDGE_DEBUG")) for (auto& c : candidates) { auto& f = c.rough.adjustment.frame; fmt::print("{:.3f} {:.2f} {:.2f}: {:.2f} {:.2f} {:.2f}  {:.3f}x{:.3f}\n", c.score, c.seed.clarity, c.rough.MeanSupport(), f.p_LO.x(), f.p_LO.y(), f.p_LO.z(), f.width_m, f.height_m); }
+  std::vector<WindowEstimate> found;
+  std::vector<FrameFit> fits;
+  std::optional<Miss> first_objection;
+  for (Candidate& candidate : candidates) {
+    if (found.size() == static_cast<size_t>(options_.most_windows)) break;
+    const auto result = candidate.fitter.Finish(candidate.rough);
     std::optional<Miss> objection;
     if (const Miss* miss = std::get_if<Miss>(&result)) {
       objection = *miss;
     } else {
-      const FrameFit& fit = std::get<FrameFit>(result);
-      objection = Objection(fit.adjustment.frame);
-      if (!objection) {
-        WindowEstimate estimate = fit.adjustment.frame.ToEstimate();
-        estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
-        estimate.score = Score(seed, fit);
-        found.push_back(std::move(estimate));
-      }
+      objection = Objection(std::get<FrameFit>(result).adjustment.frame);
     }
-    if (objection && !first_objection) first_objection = objection;
+    if (objection) {
+      if (getenv("EDGE_DEBUG")) fmt::print("obj {} {}\n", objection->reason, objection->detail);
+      if (!first_objection) first_objection = objection;
+      continue;
+    }
+    const FrameFit& fit = std::get<FrameFit>(result);
+    WindowEstimate estimate = fit.adjustment.frame.ToEstimate();
+    estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
+    estimate.score = Score(views[0], candidate.seed, fit);
+    found.push_back(std::move(estimate));
+    fits.push_back(fit);
   }
+  if (found.empty()) return *first_objection;
 
   log.Begin("choose");
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.score.value() > b.score.value(); });
-  log.End();
-  if (found.empty()) return *first_objection;
-  WindowEstimate best = found.front();
-  best.others.assign(found.begin() + 1, found.end());
-  return best;
+  const auto best = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return a.score.value() < b.score.value();
+  });
+  log.Picture("edge_points",
+              [&] { return DrawEdgePoints(views, fits[static_cast<size_t>(best - found.begin())]); },
+              {PictureView{views[0].camera, Pose()}});
+  WindowEstimate chosen = *best;
+  found.erase(best);
+  chosen.others = std::move(found);
+  std::stable_sort(chosen.others.begin(), chosen.others.end(), [](const auto& a, const auto& b) {
+    return a.score.value() > b.score.value();
+  });
+  return chosen;
 }
 
 std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilateral>& candidates,
@@ -190,8 +239,10 @@ std::optional<Miss> EdgeStereoDetector::Objection(const FrameRectangle& frame) c
   return std::nullopt;
 }
 
-double EdgeStereoDetector::Score(const FrameSeed& seed, const FrameFit& fit) const {
-  return 0.4 * seed.clarity + 0.4 * Mean(fit.outer_support) + 0.2 * fit.inner_support;
+double EdgeStereoDetector::Score(const CameraView& left, const FrameSeed& seed,
+                                 const FrameFit& fit) const {
+  const double seen = 0.4 * seed.clarity + 0.4 * fit.MeanSupport() + 0.2 * fit.inner_support;
+  return seen * (1.0 - 0.6 * BrightBand(left, fit.adjustment.frame, options_.black_dn));
 }
 
 }  // namespace fenestra

@@ -31,19 +31,24 @@ class EdgeStereoDetector : public Detector {
 
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
-  /// Miss: "no_quadrilateral", "no_stereo_match", or those of FitFrame.
+  /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
+  /// "implausible_shape", by how far the best candidate came.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
-  struct Found {
-    WindowEstimate estimate;
-    FrameFit fit;
+  struct Candidate {
+    FrameSeed seed;
+    FrameFitter fitter;
+    FrameFit rough;
+    double score;
   };
   std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                const EdgeSegments& right_segments,
                                const cv::Mat1b& right_image) const;
   std::optional<Miss> Objection(const FrameRectangle& frame) const;
-  double Score(const FrameSeed& seed, const FrameFit& fit) const;
+  Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
+                    StageLog& log) const;
+  double Score(const CameraView& left, const FrameSeed& seed, const FrameFit& fit) const;
 
   EdgeStereoOptions options_;
   StereoCalibration calibration_;

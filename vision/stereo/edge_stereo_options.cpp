@@ -42,13 +42,15 @@ void AddLook(Table& table) {
       .Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "grey value without light")
       .Number("min_segment_px", FENESTRA_FIELD(min_segment_px), {4.0, 1000.0},
               "shortest piece of a straight edge")
-      .Integer("most_segments", FENESTRA_FIELD(most_segments), {4.0, 256.0},
+      .Integer("most_segments", FENESTRA_FIELD(most_segments), {4.0, 200.0},
                "straight edges that are kept, for each side")
       .Integer("most_candidates", FENESTRA_FIELD(most_candidates), {1.0, 100.0},
                "rough rectangles that are measured")
+      .Integer("most_windows", FENESTRA_FIELD(most_windows), {1.0, 100.0},
+               "windows that are looked for, the best first")
       .Number("min_side_support", FENESTRA_FIELD(min_side_support), {0.0, 1.0},
               "share of each side that must be seen")
-      .Number("min_clarity", FENESTRA_FIELD(min_clarity), {0.0, 1.0},
+      .Number("min_darkness", FENESTRA_FIELD(min_darkness), {0.0, 1.0},
               "how much darker the frame must be than what surrounds it; 1: four times")
       .Number("min_border_m", FENESTRA_FIELD(min_border_m), {0.001, 10.0},
               "narrowest frame whose inner edge is used")

@@ -26,13 +26,14 @@ struct EdgeStereoOptions {
   /// A third of the shortest side that is looked for at 10 m.
   double min_segment_px = 12.0;
   /// Textured walls have thousands; a frame's sides are among the longest and strongest.
-  int most_segments = 160;
+  int most_segments = 150;
   /// Rough candidates that are measured in both views.
-  int most_candidates = 6;
+  int most_candidates = 8;
+  int most_windows = 2;  ///< Candidates that are measured to the end.
   /// A frame that stands behind something for half of a side is still one.
   double min_side_support = 0.4;
-  /// Mean clarity of its sides, see dark_quadrilateral.h: brick joints have less.
-  double min_clarity = 0.25;
+  /// See darkness.h: of bright and dark at 1.4 : 1; brick and its joints have less.
+  double min_darkness = 0.25;
 
   // The border between wall and opening.
   double min_border_m = 0.02;

@@ -10,6 +10,7 @@ namespace {
 constexpr int kMost = FrameRectangle::kParameters;
 constexpr int kIterations = 25;
 constexpr double kTukey = 4.685;
+constexpr double kInlier = 3.5;
 constexpr double kConverged = 1e-7;  // Squared step in standard deviations.
 
 using Matrix = Eigen::Matrix<double, kMost, kMost>;
@@ -38,23 +39,29 @@ double RobustScale(std::vector<double> residuals) {
   return std::max(1.0, 1.4826 * *middle);
 }
 
-double Weight(double residual, double scale) {
-  const double x = residual / (kTukey * scale);
-  return std::abs(x) >= 1.0 ? 0.0 : (1.0 - x * x) * (1.0 - x * x);
-}
+// What a residual costs. Tukey's biweight, or its square up to a limit.
+struct Loss {
+  double scale;
+  bool square;
 
-double Loss(double residual, double scale) {
-  const double c = kTukey * scale;
-  const double x = std::min(1.0, std::abs(residual) / c);
-  const double rest = 1.0 - x * x;
-  return c * c / 3.0 * (1.0 - rest * rest * rest);
-}
-
-double TotalLoss(const std::vector<double>& residuals, double scale) {
-  double sum = 0.0;
-  for (const double r : residuals) sum += Loss(r, scale);
-  return sum;
-}
+  double Weight(double residual) const {
+    if (square) return std::abs(residual) < kInlier * scale ? 1.0 : 0.0;
+    const double x = residual / (kTukey * scale);
+    return std::abs(x) >= 1.0 ? 0.0 : (1.0 - x * x) * (1.0 - x * x);
+  }
+  double Of(double residual) const {
+    if (square) return std::pow(std::min(std::abs(residual), kInlier * scale), 2);
+    const double c = kTukey * scale;
+    const double x = std::min(1.0, std::abs(residual) / c);
+    const double rest = 1.0 - x * x;
+    return c * c / 3.0 * (1.0 - rest * rest * rest);
+  }
+  double Of(const std::vector<double>& residuals) const {
+    double sum = 0.0;
+    for (const double r : residuals) sum += Of(r);
+    return sum;
+  }
+};
 
 struct NormalEquations {
   Matrix matrix = Matrix::Zero();
@@ -62,7 +69,7 @@ struct NormalEquations {
 };
 
 NormalEquations Linearise(const std::array<CameraView, 2>& views, const Points& points,
-                          const FrameRectangle& frame, double scale) {
+                          const FrameRectangle& frame, const Loss& loss) {
   NormalEquations equations;
   for (size_t view = 0; view < 2; ++view) {
     const Eigen::Matrix3d& R_CL = views[view].X_CL.rotation();
@@ -74,7 +81,7 @@ NormalEquations Linearise(const std::array<CameraView, 2>& views, const Points& 
           point.normal.transpose() * projected->by_point * R_CL / point.sigma_px;
       const Vector j = (by_point * on_side.by_parameters).transpose();
       const double residual = point.normal.dot(projected->pixel - point.pixel) / point.sigma_px;
-      const double weight = Weight(residual, scale);
+      const double weight = loss.Weight(residual);
       equations.matrix.noalias() += weight * j * j.transpose();
       equations.gradient.noalias() -= weight * residual * j;
     }
@@ -82,19 +89,52 @@ NormalEquations Linearise(const std::array<CameraView, 2>& views, const Points& 
   return equations;
 }
 
-void AddPrior(const FrameRectangle& frame, const SizePrior& prior, NormalEquations& equations) {
-  const double information = 1.0 / (prior.sigma_m * prior.sigma_m);
-  equations.matrix(6, 6) += information;
-  equations.matrix(7, 7) += information;
-  equations.gradient[6] += information * (prior.width_m - frame.width_m);
-  equations.gradient[7] += information * (prior.height_m - frame.height_m);
+// A parameter that is known to some extent.
+struct Known {
+  int parameter;
+  double value;
+  double sigma;
+};
+
+std::vector<Known> AllKnown(const FrameKnowledge& knowledge) {
+  std::vector<Known> known;
+  if (knowledge.size) {
+    known.push_back({6, knowledge.size->width_m, knowledge.size->sigma_m});
+    known.push_back({7, knowledge.size->height_m, knowledge.size->sigma_m});
+  }
+  if (knowledge.outer_relief) {
+    for (int i = 9; i < 13; ++i) {
+      known.push_back({i, knowledge.outer_relief->mean_m, knowledge.outer_relief->sigma_m});
+    }
+  }
+  if (knowledge.inner_relief) {
+    known.push_back({13, knowledge.inner_relief->mean_m, knowledge.inner_relief->sigma_m});
+  }
+  return known;
 }
 
-double PriorLoss(const FrameRectangle& frame, const std::optional<SizePrior>& prior) {
-  if (!prior) return 0.0;
-  const double w = (frame.width_m - prior->width_m) / prior->sigma_m;
-  const double h = (frame.height_m - prior->height_m) / prior->sigma_m;
-  return w * w + h * h;
+double ValueOf(const FrameRectangle& frame, int parameter) {
+  if (parameter == 6) return frame.width_m;
+  if (parameter == 7) return frame.height_m;
+  if (parameter == 13) return frame.inner_relief_m;
+  return frame.outer_relief_m[static_cast<size_t>(parameter - 9)];
+}
+
+void AddKnown(const FrameRectangle& frame, const std::vector<Known>& known,
+              NormalEquations& equations) {
+  for (const Known& k : known) {
+    const double information = 1.0 / (k.sigma * k.sigma);
+    equations.matrix(k.parameter, k.parameter) += information;
+    equations.gradient[k.parameter] += information * (k.value - ValueOf(frame, k.parameter));
+  }
+}
+
+double LossOfKnown(const FrameRectangle& frame, const std::vector<Known>& known) {
+  double sum = 0.0;
+  for (const Known& k : known) {
+    sum += std::pow((ValueOf(frame, k.parameter) - k.value) / k.sigma, 2);
+  }
+  return sum;
 }
 
 bool HasInner(const Points& points) {
@@ -106,74 +146,125 @@ bool HasInner(const Points& points) {
   return false;
 }
 
-// Solves for the first `count` parameters; the others stay.
-Vector Solve(const NormalEquations& equations, int count, double damping) {
-  Eigen::MatrixXd matrix = equations.matrix.topLeftCorner(count, count);
-  matrix.diagonal() *= 1.0 + damping;
-  Vector step = Vector::Zero();
-  step.head(count) = matrix.ldlt().solve(equations.gradient.head(count));
-  return step;
+std::vector<int> FittedParameters(const Points& points, const FrameKnowledge& knowledge) {
+  std::vector<int> fitted = {0, 1, 2, 3, 4, 5, 6, 7};
+  const bool inner = HasInner(points);
+  if (inner) fitted.push_back(8);
+  if (knowledge.outer_relief) fitted.insert(fitted.end(), {9, 10, 11, 12});
+  if (inner && knowledge.inner_relief) fitted.push_back(13);
+  return fitted;
 }
+
+class Adjustment {
+ public:
+  Adjustment(const std::array<CameraView, 2>& views, const Points& points,
+             const FrameKnowledge& knowledge)
+      : views_(views),
+        points_(points),
+        known_(AllKnown(knowledge)),
+        fitted_(FittedParameters(points, knowledge)) {}
+
+  // False if the points cannot be seen from there.
+  bool Start(const FrameRectangle& frame) {
+    frame_ = frame;
+    auto residuals = Residuals(views_, points_, frame);
+    if (!residuals) return false;
+    residuals_ = std::move(*residuals);
+    loss_ = {RobustScale(residuals_), false};
+    return true;
+  }
+
+  bool Minimise(bool square) {
+    loss_.square = square;
+    double damping = 1e-4;
+    for (int i = 0; i < kIterations; ++i) {
+      const NormalEquations equations = Equations();
+      const Vector step = Solve(equations, damping);
+      if (!step.allFinite()) return false;
+      const FrameRectangle moved = frame_.Moved(step);
+      const auto after = Residuals(views_, points_, moved);
+      const double before = loss_.Of(residuals_) + LossOfKnown(frame_, known_);
+      if (!after || loss_.Of(*after) + LossOfKnown(moved, known_) > before) {
+        damping *= 10.0;
+        if (damping > 1e6) break;
+        continue;
+      }
+      const double size = step.dot(equations.matrix * step);
+      frame_ = moved;
+      residuals_ = *after;
+      damping = std::max(1e-9, 0.1 * damping);
+      if (!square) loss_.scale = RobustScale(residuals_);
+      if (size < kConverged) break;
+    }
+    return true;
+  }
+
+  std::optional<FrameAdjustment> Result() const {
+    FrameAdjustment result;
+    result.frame = frame_;
+    double squares = 0.0;
+    double count = 0.0;
+    size_t next = 0;
+    for (size_t view = 0; view < 2; ++view) {
+      for (size_t i = 0; i < points_[view].size(); ++i) {
+        const double residual = residuals_[next++];
+        const double weight = loss_.Weight(residual);
+        result.is_inlier[view].push_back(weight > 0.0);
+        squares += weight * residual * residual;
+        count += weight;
+      }
+    }
+    const auto parameters = static_cast<double>(fitted_.size());
+    if (count <= 1.5 * parameters) return std::nullopt;
+    result.scale = std::sqrt(squares / (count - parameters));
+    const Eigen::MatrixXd information = Equations().matrix(fitted_, fitted_);
+    const Eigen::LDLT<Eigen::MatrixXd> decomposition(information);
+    if (decomposition.info() != Eigen::Success || !decomposition.isPositive()) return std::nullopt;
+    const auto size = static_cast<Eigen::Index>(fitted_.size());
+    result.covariance.setZero();
+    const Eigen::MatrixXd inverse = decomposition.solve(Eigen::MatrixXd::Identity(size, size));
+    result.covariance(fitted_, fitted_) = std::max(1.0, result.scale * result.scale) * inverse;
+    if (!result.covariance.allFinite()) return std::nullopt;
+    return result;
+  }
+
+ private:
+  NormalEquations Equations() const {
+    NormalEquations equations = Linearise(views_, points_, frame_, loss_);
+    AddKnown(frame_, known_, equations);
+    return equations;
+  }
+
+  // Of the fitted parameters; the others stay.
+  Vector Solve(const NormalEquations& equations, double damping) const {
+    Eigen::MatrixXd matrix = equations.matrix(fitted_, fitted_);
+    matrix.diagonal() *= 1.0 + damping;
+    const Eigen::VectorXd gradient = equations.gradient(fitted_);
+    Vector step = Vector::Zero();
+    const Eigen::VectorXd change = matrix.ldlt().solve(gradient);
+    step(fitted_) = change;
+    return step;
+  }
+
+  const std::array<CameraView, 2>& views_;
+  const Points& points_;
+  std::vector<Known> known_;
+  std::vector<int> fitted_;
+  FrameRectangle frame_;
+  std::vector<double> residuals_;
+  Loss loss_{1.0, false};
+};
 
 }  // namespace
 
 std::optional<FrameAdjustment> AdjustFrame(const std::array<CameraView, 2>& views,
                                            const Points& points, const FrameRectangle& start,
-                                           const std::optional<SizePrior>& prior) {
-  const int count = HasInner(points) ? kMost : kMost - 1;
+                                           const FrameKnowledge& knowledge) {
   if (points[0].size() + points[1].size() < 2 * kMost) return std::nullopt;
-  FrameAdjustment result;
-  result.frame = start;
-  auto residuals = Residuals(views, points, start);
-  if (!residuals) return std::nullopt;
-  double scale = RobustScale(*residuals);
-  double damping = 1e-4;
-  NormalEquations equations;
-  for (int i = 0; i < kIterations; ++i) {
-    equations = Linearise(views, points, result.frame, scale);
-    if (prior) AddPrior(result.frame, *prior, equations);
-    const Vector step = Solve(equations, count, damping);
-    if (!step.allFinite()) return std::nullopt;
-    const FrameRectangle moved = result.frame.Moved(step);
-    const auto after = Residuals(views, points, moved);
-    const double loss_before = TotalLoss(*residuals, scale) + PriorLoss(result.frame, prior);
-    if (!after || TotalLoss(*after, scale) + PriorLoss(moved, prior) > loss_before) {
-      damping *= 10.0;
-      if (damping > 1e6) break;
-      continue;
-    }
-    const double size = step.dot(equations.matrix * step);
-    result.frame = moved;
-    residuals = after;
-    damping = std::max(1e-9, 0.1 * damping);
-    scale = RobustScale(*residuals);
-    if (size < kConverged) break;
-  }
-  equations = Linearise(views, points, result.frame, scale);
-  if (prior) AddPrior(result.frame, *prior, equations);
-  double squares = 0.0;
-  double weights = 0.0;
-  size_t next = 0;
-  for (size_t view = 0; view < 2; ++view) {
-    for (size_t i = 0; i < points[view].size(); ++i) {
-      const double residual = (*residuals)[next++];
-      const double weight = Weight(residual, scale);
-      result.weights[view].push_back(weight);
-      squares += weight * residual * residual;
-      weights += weight;
-    }
-  }
-  if (weights <= 1.5 * count) return std::nullopt;
-  result.scale = std::sqrt(squares / (weights - count));
-  const Eigen::MatrixXd information = equations.matrix.topLeftCorner(count, count);
-  const Eigen::LDLT<Eigen::MatrixXd> decomposition(information);
-  if (decomposition.info() != Eigen::Success || !decomposition.isPositive()) return std::nullopt;
-  result.covariance.setZero();
-  result.covariance.topLeftCorner(count, count) =
-      std::max(1.0, result.scale * result.scale) *
-      decomposition.solve(Eigen::MatrixXd::Identity(count, count));
-  if (!result.covariance.allFinite()) return std::nullopt;
-  return result;
+  Adjustment adjustment(views, points, knowledge);
+  if (!adjustment.Start(start)) return std::nullopt;
+  if (!adjustment.Minimise(false) || !adjustment.Minimise(true)) return std::nullopt;
+  return adjustment.Result();
 }
 
 }  // namespace fenestra

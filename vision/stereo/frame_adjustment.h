@@ -16,13 +16,24 @@ struct SizePrior {
   double sigma_m;
 };
 
+/// How far sides may be from the frame's plane.
+struct ReliefPrior {
+  double mean_m;
+  double sigma_m;
+};
+
+/// What is assumed of a frame. Sides without a relief are in its plane.
+struct FrameKnowledge {
+  std::optional<SizePrior> size;
+  std::optional<ReliefPrior> outer_relief;
+  std::optional<ReliefPrior> inner_relief;
+};
+
 struct FrameAdjustment {
   FrameRectangle frame;
-  /// Of FrameRectangle's parameters in their order; rows of the border are zero where no inner edge
-  /// was used.
+  /// Of FrameRectangle's parameters in their order; rows of those that were not fitted are zero.
   Eigen::Matrix<double, FrameRectangle::kParameters, FrameRectangle::kParameters> covariance;
-  /// By view: the share of each point's weight that the loss leaves, 0 for an outlier.
-  std::array<std::vector<double>, 2> weights;
+  std::array<std::vector<bool>, 2> is_inlier;  ///< By view, for each point.
   /// Root mean square of the residuals over their standard deviations.
   double scale = 0.0;
 };
@@ -32,15 +43,16 @@ struct FrameAdjustment {
 ///     Σ ρ(n·(π(X_CL p_LQ) - q) / σ)
 ///
 /// over rotation, centroid, width, height and, if there are points of the inner edge, the border's
-/// width. π: the camera with its distortion; p_LQ: the point of the side at the edge point's share
-/// of it; q, n, σ: the edge point. ρ: Tukey's biweight at 4.685 times the residuals' own scale
-/// (1.4826 of their median size, at least 1). Levenberg and Marquardt, by iterated reweighting.
+/// width; over a relief that has a prior. π: the camera with its distortion; p_LQ: the
+/// point of the side at the edge point's share of it; q, n, σ: the edge point. ρ: Tukey's biweight
+/// at 4.685 times the residuals' own scale (1.4826 of their median size, at least 1); then least
+/// squares over those within 3.5 times that scale. Levenberg and Marquardt, iterated reweighting.
 ///
-/// The covariance is (JᵀWJ)⁻¹ times the residuals' mean square where that is above 1: edges of
+/// The covariance is (JᵀWJ)⁻¹ times the inliers' mean square where that is above 1: edges of
 /// textured walls are off by more than noise explains. nullopt if the points fix no rectangle.
 std::optional<FrameAdjustment> AdjustFrame(const std::array<CameraView, 2>& views,
                                            const std::array<std::vector<EdgePoint>, 2>& points,
                                            const FrameRectangle& start,
-                                           const std::optional<SizePrior>& prior);
+                                           const FrameKnowledge& knowledge);
 
 }  // namespace fenestra

@@ -25,4 +25,10 @@ struct BorderFound {
 std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectangle& frame,
                                       const BorderSearch& search);
 
+/// Whether the surroundings of the left or the right side are brighter nearby than farther away, as
+/// beside the opening of a bright frame: 0 up to 1.4 times, 1 from 2 times on, in proportion to the
+/// logarithm in between. (A reveal that faces the sun more than its wall does is rarely so bright;
+/// above and below there are lintels and sills.)
+double BrightBand(const CameraView& view, const FrameRectangle& frame, double black_dn);
+
 }  // namespace fenestra

@@ -4,14 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace fenestra {
 namespace {
 
-constexpr int kRounds = 4;
+constexpr int kRounds = 3;
 constexpr double kLeastReach_px = 1.6;
 // Of the places along the inner sides; with fewer the border is left out.
 constexpr double kLeastInnerSupport = 0.5;
+// Of the places along each outer side.
+constexpr double kFlatSupport = 0.5;
+// Panes stand in the frame's thickness, a wall's face or a sill up to some decimetre before it.
+constexpr ReliefPrior kPanes{.mean_m = -0.03, .sigma_m = 0.03};
+constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
+constexpr ReliefPrior kBehind{.mean_m = -0.05, .sigma_m = 0.1};
+constexpr double kRebate_m = 0.085;
 
 // Width of the border in the image, where it is narrowest.
 double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
@@ -24,105 +32,148 @@ double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
   return least;
 }
 
-class FitRounds {
- public:
-  FitRounds(const std::array<CameraView, 2>& views, const FrameFitSettings& settings)
-      : views_(views), settings_(settings) {}
-
-  std::optional<FrameFit> Round(const FrameRectangle& frame,
-                                const std::optional<BorderFound>& border) {
-    FrameFit fit;
-    std::array<std::array<int, 4>, 2> outer_places = {};
-    int inner_places = 0;
-    for (size_t view = 0; view < 2; ++view) {
-      const double reach_px = border ? std::clamp(0.5 * BorderPixels(views_[view], frame),
-                                                  kLeastReach_px, settings_.reach_px)
-                                     : settings_.reach_px;
-      for (const Side side : kAllSides) {
-        const auto s = static_cast<size_t>(side);
-        outer_places[view][s] = Measure(view, frame,
-                                        {.side = side,
-                                         .border = Border::kOuter,
-                                         .brighter = Brighter::kOutside,
-                                         .reach_px = reach_px,
-                                         .min_contrast_dn = settings_.min_contrast_dn},
-                                        fit.points[view]);
-        if (!border) continue;
-        inner_places += Measure(view, frame,
-                                {.side = side,
-                                 .border = Border::kInner,
-                                 .brighter = border->brighter[s],
-                                 .reach_px = reach_px,
-                                 .min_contrast_dn = settings_.min_contrast_dn},
-                                fit.points[view]);
-      }
-    }
-    auto adjustment = AdjustFrame(views_, fit.points, frame, settings_.prior);
-    if (!adjustment) return std::nullopt;
-    fit.adjustment = std::move(*adjustment);
-    CountSupport(outer_places, inner_places, fit);
-    return fit;
-  }
-
- private:
-  int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
-              std::vector<EdgePoint>& points) {
-    EdgeTuning& tuning =
-        tunings_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
-    SideEdges edges = MeasureSide(views_[view], frame, request, tuning);
-    points.insert(points.end(), edges.points.begin(), edges.points.end());
-    tuning = edges.tuning;
-    return edges.places;
-  }
-
-  static void CountSupport(const std::array<std::array<int, 4>, 2>& outer_places, int inner_places,
-                           FrameFit& fit) {
-    double inner = 0.0;
-    for (size_t view = 0; view < 2; ++view) {
-      std::array<double, 4> outer = {};
-      for (size_t i = 0; i < fit.points[view].size(); ++i) {
-        if (fit.adjustment.weights[view][i] <= 0.0) continue;
-        const EdgePoint& point = fit.points[view][i];
-        (point.border == Border::kOuter ? outer[static_cast<size_t>(point.side)] : inner) += 1.0;
-      }
-      for (size_t side = 0; side < 4; ++side) {
-        if (outer_places[view][side] == 0) continue;
-        fit.outer_support[side] =
-            std::max(fit.outer_support[side], outer[side] / outer_places[view][side]);
-      }
-    }
-    if (inner_places > 0) fit.inner_support = inner / inner_places;
-  }
-
-  const std::array<CameraView, 2>& views_;
-  const FrameFitSettings& settings_;
-  std::array<std::array<std::array<EdgeTuning, 4>, 2>, 2> tunings_;
+struct PlaceCounts {
+  std::array<std::array<int, 4>, 2> outer = {};  // By view and side.
+  int inner = 0;
 };
+
+void CountSupport(const PlaceCounts& places, FrameFit& fit) {
+  double inner = 0.0;
+  for (size_t view = 0; view < 2; ++view) {
+    std::array<double, 4> outer = {};
+    for (size_t i = 0; i < fit.points[view].size(); ++i) {
+      if (!fit.adjustment.is_inlier[view][i]) continue;
+      const EdgePoint& point = fit.points[view][i];
+      (point.border == Border::kOuter ? outer[static_cast<size_t>(point.side)] : inner) += 1.0;
+    }
+    for (size_t side = 0; side < 4; ++side) {
+      if (places.outer[view][side] == 0) continue;
+      fit.outer_support[side] =
+          std::max(fit.outer_support[side], outer[side] / places.outer[view][side]);
+    }
+  }
+  if (places.inner > 0) fit.inner_support = inner / places.inner;
+}
+
+// The frame's front, where its inner sides are seen this far behind its outer ones.
+void StandBack(FrameFit& fit) {
+  FrameAdjustment& adjustment = fit.adjustment;
+  const double inner_m = adjustment.frame.inner_relief_m;
+  if (inner_m > -kRebate_m) return;
+  const Eigen::Vector3d normal = adjustment.frame.R_LO.col(2);
+  adjustment.frame.p_LO += (inner_m - kPanes.mean_m) * normal;
+  for (double& relief_m : adjustment.frame.outer_relief_m) relief_m -= inner_m - kPanes.mean_m;
+  adjustment.frame.inner_relief_m = kPanes.mean_m;
+  const double variance = adjustment.covariance(13, 13) + kPanes.sigma_m * kPanes.sigma_m;
+  adjustment.covariance.block<3, 3>(3, 3) += variance * normal * normal.transpose();
+}
 
 }  // namespace
 
-std::variant<FrameFit, Miss> FitFrame(const std::array<CameraView, 2>& views,
-                                      const FrameRectangle& start,
-                                      const FrameFitSettings& settings) {
-  FitRounds rounds(views, settings);
-  FrameRectangle frame = start;
-  std::optional<BorderFound> border;
-  std::optional<FrameFit> fit;
-  for (int i = 0; i < kRounds; ++i) {
-    fit = rounds.Round(frame, border);
-    if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
-    frame = fit->adjustment.frame;
-    if (border && fit->inner_support < kLeastInnerSupport) border.reset();
-    if (i == 0) {
-      border = FindBorder(views[0], frame, settings.border);
-      if (border) frame.border_m = border->border_m;
+double FrameFit::LeastSupport() const {
+  return *std::min_element(outer_support.begin(), outer_support.end());
+}
+
+double FrameFit::MeanSupport() const {
+  return std::accumulate(outer_support.begin(), outer_support.end(), 0.0) / 4.0;
+}
+
+int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
+                         std::vector<EdgePoint>& points) {
+  EdgeTuning& tuning =
+      tunings_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
+  SideEdges edges = MeasureSide((*views_)[view], frame, request, tuning);
+  points.insert(points.end(), edges.points.begin(), edges.points.end());
+  tuning = edges.tuning;
+  return edges.places;
+}
+
+std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
+                                           const FrameKnowledge& knowledge) {
+  FrameFit fit;
+  PlaceCounts places;
+  for (size_t view = 0; view < 2; ++view) {
+    const double reach_px = border_ ? std::clamp(0.5 * BorderPixels((*views_)[view], frame),
+                                                 kLeastReach_px, settings_.reach_px)
+                                    : settings_.reach_px;
+    SideRequest request{.side = Side::kTop,
+                        .border = Border::kOuter,
+                        .brighter = Brighter::kOutside,
+                        .reach_px = reach_px,
+                        .min_contrast_dn = settings_.min_contrast_dn};
+    for (const Side side : kAllSides) {
+      const auto s = static_cast<size_t>(side);
+      request.side = side;
+      request.border = Border::kOuter;
+      request.brighter = Brighter::kOutside;
+      places.outer[view][s] = Measure(view, frame, request, fit.points[view]);
+      if (!border_) continue;
+      request.border = Border::kInner;
+      request.brighter = border_->brighter[s];
+      places.inner += Measure(view, frame, request, fit.points[view]);
     }
   }
-  const double least = *std::min_element(fit->outer_support.begin(), fit->outer_support.end());
-  if (least < settings.min_side_support) {
+  auto adjustment = AdjustFrame(*views_, fit.points, frame, knowledge);
+  if (!adjustment) return std::nullopt;
+  fit.adjustment = std::move(*adjustment);
+  CountSupport(places, fit);
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& knowledge,
+                                            int count) {
+  for (int i = 0; i < count; ++i) {
+    FrameKnowledge now = knowledge;
+    if (i + 1 == count) now.size = settings_.size;
+    auto next = Round(fit.adjustment.frame, now);
+    if (!next) return std::nullopt;
+    fit = std::move(*next);
+  }
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::FitRoughly(const FrameRectangle& start) {
+  return Round(start, {});
+}
+
+std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
+  auto fit = Rounds(start, {}, kRounds);
+  if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
+  if (border_ && fit->inner_support < kLeastInnerSupport) return std::nullopt;
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
+  auto fit = Rounds(start, {.size = {}, .outer_relief = {}, .inner_relief = kBehind}, kRounds);
+  if (fit && fit->inner_support < kLeastInnerSupport) {
+    border_.reset();
+    fit = Rounds(start, {}, kRounds);
+  }
+  if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
+  StandBack(*fit);
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::FitInRelief(const FrameFit& start) {
+  return Rounds(start, {.size = {}, .outer_relief = kWall, .inner_relief = kPanes}, kRounds);
+}
+
+std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
+  FrameFit start = rough;
+  border_ = FindBorder((*views_)[0], start.adjustment.frame, settings_.border);
+  if (border_) start.adjustment.frame.border_m = border_->border_m;
+  std::optional<FrameFit> fit = FitInOnePlane(start);
+  if (!fit && border_) {
+    const auto border = border_;
+    fit = FitBeforePanes(start);
+    if (!fit) border_ = border;
+  }
+  if (!fit) fit = FitInRelief(start);
+  if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
+  if (fit->LeastSupport() < settings_.min_side_support) {
     return Miss{"unsupported_side",
                 fmt::format("only {:.0f} % of a side has an edge, {:.0f} % are needed",
-                            100.0 * least, 100.0 * settings.min_side_support)};
+                            100.0 * fit->LeastSupport(), 100.0 * settings_.min_side_support)};
   }
   return *fit;
 }

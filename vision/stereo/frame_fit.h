@@ -14,7 +14,7 @@ struct FrameFitSettings {
   double reach_px;          ///< Pixels up to here from an edge are used, unless another is nearer.
   double min_side_support;  ///< Share of an outer side's places with its edge.
   BorderSearch border;
-  std::optional<SizePrior> prior;
+  std::optional<SizePrior> size;  ///< Used in the last adjustment only.
 };
 
 struct FrameFit {
@@ -24,13 +24,47 @@ struct FrameFit {
   /// the better view, and of all inner sides.
   std::array<double, 4> outer_support = {};
   double inner_support = 0.0;
+
+  double LeastSupport() const;
+  double MeanSupport() const;
 };
 
 /// From a rectangle that is right to some pixels to the one that fits best: measures the sides in
-/// both views and adjusts the rectangle to them, in rounds; looks for the border's inner edge
-/// after the first round. Miss: "no_edges", "unsupported_side".
-std::variant<FrameFit, Miss> FitFrame(const std::array<CameraView, 2>& views,
-                                      const FrameRectangle& start,
-                                      const FrameFitSettings& settings);
+/// both views and adjusts the rectangle to them, in rounds.
+class FrameFitter {
+ public:
+  /// The views must outlive this.
+  FrameFitter(const std::array<CameraView, 2>& views, const FrameFitSettings& settings)
+      : views_(&views), settings_(settings) {}
+
+  /// One round with the outer sides alone. nullopt if they fix no rectangle.
+  std::optional<FrameFit> FitRoughly(const FrameRectangle& start);
+
+  /// Looks for the border's inner edge and goes on with both, in the first of these ways that the
+  /// edges bear out:
+  ///
+  ///   1. all sides in one plane: a painted or a flush frame;
+  ///   2. the outer sides in one plane, the inner ones in another. Up to 8.5 cm behind it that is
+  ///      the depth of the frame. Farther back, what is seen as the outer sides is the wall's face,
+  ///      and the frame stands back in it;
+  ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame there.
+  ///
+  /// Miss: "no_edges", "unsupported_side".
+  std::variant<FrameFit, Miss> Finish(const FrameFit& rough);
+
+ private:
+  std::optional<FrameFit> Round(const FrameRectangle& frame, const FrameKnowledge& knowledge);
+  std::optional<FrameFit> FitInOnePlane(const FrameFit& start);
+  std::optional<FrameFit> FitBeforePanes(const FrameFit& start);
+  std::optional<FrameFit> FitInRelief(const FrameFit& start);
+  std::optional<FrameFit> Rounds(FrameFit fit, const FrameKnowledge& knowledge, int count);
+  int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
+              std::vector<EdgePoint>& points);
+
+  const std::array<CameraView, 2>* views_;
+  FrameFitSettings settings_;
+  std::optional<BorderFound> border_;
+  std::array<std::array<std::array<EdgeTuning, 4>, 2>, 2> tunings_;  // View, border, side.
+};
 
 }  // namespace fenestra

@@ -42,13 +42,17 @@ FrameRectangle FrameRectangle::Moved(const Step& step) const {
   moved.width_m += step[6];
   moved.height_m += step[7];
   moved.border_m += step[8];
+  for (int i = 0; i < 4; ++i) moved.outer_relief_m[i] += step[9 + i];
+  moved.inner_relief_m += step[13];
   return moved;
 }
 
 Vector3d FrameRectangle::InFrame(Side side, Border border, double share) const {
   const double inset_m = border == Border::kInner ? border_m : 0.0;
   const Vector2d place = Place(side, share);
-  return {place.x() * (0.5 * width_m - inset_m), place.y() * (0.5 * height_m - inset_m), 0.0};
+  const double relief_m =
+      border == Border::kInner ? inner_relief_m : outer_relief_m[static_cast<size_t>(side)];
+  return {place.x() * (0.5 * width_m - inset_m), place.y() * (0.5 * height_m - inset_m), relief_m};
 }
 
 Vector3d FrameRectangle::PointOn(Side side, Border border, double share) const {
@@ -60,14 +64,16 @@ FrameRectangle::SidePoint FrameRectangle::LineariseOn(Side side, Border border,
   const Vector3d p_OQ = InFrame(side, border, share);
   const Vector2d place = Place(side, share);
   SidePoint point{R_LO * p_OQ + p_LO, {}};
+  point.by_parameters.setZero();
   point.by_parameters.leftCols<3>() = -R_LO * CrossMatrix(p_OQ);
   point.by_parameters.middleCols<3>(3) = Matrix3d::Identity();
   point.by_parameters.col(6) = R_LO.col(0) * 0.5 * place.x();
   point.by_parameters.col(7) = R_LO.col(1) * 0.5 * place.y();
   if (border == Border::kInner) {
     point.by_parameters.col(8) = -R_LO.col(0) * place.x() - R_LO.col(1) * place.y();
+    point.by_parameters.col(13) = R_LO.col(2);
   } else {
-    point.by_parameters.col(8).setZero();
+    point.by_parameters.col(9 + static_cast<int>(side)) = R_LO.col(2);
   }
   return point;
 }
@@ -93,7 +99,9 @@ WindowEstimate FrameRectangle::ToEstimate() const {
   WindowEstimate estimate;
   estimate.p_CO = p_LO;
   for (const Side side : kAllSides) {
-    estimate.p_CV[static_cast<size_t>(side)] = PointOn(side, Border::kOuter, 0.0);
+    const Vector2d place = Place(side, 0.0);
+    estimate.p_CV[static_cast<size_t>(side)] =
+        R_LO * Vector3d(0.5 * width_m * place.x(), 0.5 * height_m * place.y(), 0.0) + p_LO;
   }
   estimate.normal_C = R_LO.col(2);
   return estimate;

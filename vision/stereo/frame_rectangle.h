@@ -13,15 +13,21 @@ enum class Border { kOuter, kInner };
 
 /// A frame's front: a plane rectangle with a border of one width. O: origin at its centroid, +X to
 /// the right and +Y up as seen from its front, +Z out of it. L: the unrectified left camera.
+///
+/// What is seen as its sides may stand before or behind that plane: a wall's face, a sill, or the
+/// rebate of the panes. That is their relief, 0 for a frame that is painted or flush.
 struct FrameRectangle {
   Eigen::Matrix3d R_LO = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_LO = Eigen::Vector3d::Zero();
   double width_m = 0.0;   ///< Outer.
   double height_m = 0.0;  ///< Outer.
   double border_m = 0.0;  ///< Of the frame, seen from its front.
+  std::array<double, 4> outer_relief_m = {};  ///< By side, along +Z.
+  double inner_relief_m = 0.0;
 
-  /// Small changes, in this order: rotation vector in O [rad], p_LO [m], width, height, border [m].
-  static constexpr int kParameters = 9;
+  /// Small changes, in this order: rotation vector in O [rad], p_LO, width, height, border, relief
+  /// of the outer sides, of the inner ones [m].
+  static constexpr int kParameters = 14;
   using Step = Eigen::Matrix<double, kParameters, 1>;
   FrameRectangle Moved(const Step& step) const;
 
