@@ -42,7 +42,7 @@ bool MakeCorner(const EdgeSegment& upright, const Vector2d& end, const EdgeSegme
 
 // The level segments that each upright one meets at this end.
 std::vector<SegmentSet> Corners(const std::vector<EdgeSegment>& uprights,
-                                Vector2d EdgeSegment::* end,
+                                Vector2d EdgeSegment::*end,
                                 const std::vector<EdgeSegment>& levels) {
   std::vector<SegmentSet> sets(uprights.size());
   for (size_t i = 0; i < uprights.size(); ++i) {

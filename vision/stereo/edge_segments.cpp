@@ -157,8 +157,8 @@ bool Continues(const EdgeSegment& a, const EdgeSegment& b) {
   const Vector2d between = b.from - a.to;
   const Vector2d side = a.to - a.from;
   // Most pairs fail here, at the price of no root.
-  if (std::pow(Cross(side, between), 2) > 0.01 * side.squaredNorm() * between.squaredNorm() +
-                                              4.0 * side.squaredNorm()) {
+  if (std::pow(Cross(side, between), 2) >
+      0.01 * side.squaredNorm() * between.squaredNorm() + 4.0 * side.squaredNorm()) {
     return false;
   }
   const Vector2d along = side.normalized();
@@ -192,8 +192,7 @@ void Finish(const cv::Mat1b& image, const EdgeSegmentSettings& settings,
   for (EdgeSegment& s : segments) {
     s.darkness = DarkOnTheRight(image, s.from, s.to, settings.darkness);
   }
-  std::erase_if(segments,
-                [&](const EdgeSegment& s) { return s.darkness < settings.min_darkness; });
+  std::erase_if(segments, [&](const EdgeSegment& s) { return s.darkness < settings.min_darkness; });
   const auto most = static_cast<size_t>(settings.most_per_side);
   KeepBest(most, segments);
   std::vector<EdgeSegment> joined = Joined(image, segments, settings.darkness);

@@ -13,6 +13,12 @@ namespace fenestra {
 namespace {
 
 constexpr double kReach_px = 4.0;
+// Fits that may fail before a pair is given up: each takes some milliseconds.
+constexpr int kMostFinished = 4;
+// Candidates that begin with less than this share of the best one's score are not measured.
+constexpr double kHopeless = 0.7;
+constexpr double kNotFlat =
+    0.85;  // What a frame's score is worth whose sides are not in one plane.
 
 const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
   Validate(options);
@@ -57,6 +63,23 @@ cv::Mat3b DrawSegments(const cv::Mat1b& image, const EdgeSegments& segments,
   return picture;
 }
 
+// DarkInside of the frame's outer sides, piece by piece, as the lens bends them.
+double Clarity(const CameraView& view, const FrameRectangle& frame,
+               const DarknessSettings& settings) {
+  constexpr int kPieces = 4;
+  double sum = 0.0;
+  for (const Side side : kAllSides) {
+    for (int i = 0; i < kPieces; ++i) {
+      const auto from = view.camera.Project(
+          view.X_CL * frame.PointOn(side, Border::kOuter, i / static_cast<double>(kPieces)));
+      const auto to = view.camera.Project(
+          view.X_CL * frame.PointOn(side, Border::kOuter, (i + 1) / static_cast<double>(kPieces)));
+      if (from && to) sum += DarkOnTheRight(view.image, *from, *to, settings);
+    }
+  }
+  return sum / (4 * kPieces);
+}
+
 // Both images as delivered, side by side; edge points that the frame explains green, others red.
 cv::Mat3b DrawEdgePoints(const std::array<CameraView, 2>& views, const FrameFit& fit) {
   cv::Mat1b both;
@@ -66,9 +89,9 @@ cv::Mat3b DrawEdgePoints(const std::array<CameraView, 2>& views, const FrameFit&
   for (size_t view = 0; view < 2; ++view) {
     for (size_t i = 0; i < fit.points[view].size(); ++i) {
       const Eigen::Vector2d& p = fit.points[view][i].pixel;
-      const cv::Point place(static_cast<int>(std::lround(p.x())) +
-                                static_cast<int>(view) * views[0].image.cols,
-                            static_cast<int>(std::lround(p.y())));
+      const cv::Point place(
+          static_cast<int>(std::lround(p.x())) + static_cast<int>(view) * views[0].image.cols,
+          static_cast<int>(std::lround(p.y())));
       const cv::Scalar colour =
           fit.adjustment.is_inlier[view][i] ? cv::Scalar(80, 220, 80) : cv::Scalar(60, 60, 255);
       cv::circle(picture, place, 1, colour, cv::FILLED);
@@ -91,8 +114,9 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
               .max_side_ratio = options.max_side_ratio,
               .max_skew_rad = options.max_skew_rad,
               .max_taper = options.max_taper},
-      darkness_{
-          .black_dn = options.black_dn, .min_contrast_dn = options.min_contrast_dn, .reach_px = 4.0},
+      darkness_{.black_dn = options.black_dn,
+                .min_contrast_dn = options.min_contrast_dn,
+                .reach_px = 4.0},
       fitting_{.min_contrast_dn = options.min_contrast_dn,
                .reach_px = kReach_px,
                .min_side_support = options.min_side_support,
@@ -155,35 +179,37 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     FrameFitter fitter(views, fitting_);
     auto rough = fitter.FitRoughly(FrameRectangle::FromCorners(p_LV));
     if (!rough) continue;
-    const double score = Score(views[0], seed, *rough);
-    candidates.push_back({seed, std::move(fitter), std::move(*rough), score});
+    const double score = Score(views[0], *rough);
+    candidates.push_back({std::move(fitter), std::move(*rough), score});
   }
   if (candidates.empty()) return Miss{"no_edges", "too few edge points to fix a rectangle"};
   const auto by_score = [](const auto& a, const auto& b) { return a.score > b.score; };
   std::stable_sort(candidates.begin(), candidates.end(), by_score);
 
-  if (getenv("EDGE_DEBUG")) for (auto& c : candidates) { auto& f = c.rough.adjustment.frame; fmt::print("{:.3f} {:.2f} {:.2f}: {:.2f} {:.2f} {:.2f}  {:.3f}x{:.3f}\n", c.score, c.seed.clarity, c.rough.MeanSupport(), f.p_LO.x(), f.p_LO.y(), f.p_LO.z(), f.width_m, f.height_m); }
   std::vector<WindowEstimate> found;
   std::vector<FrameFit> fits;
+  int finished = 0;
   std::optional<Miss> first_objection;
   for (Candidate& candidate : candidates) {
     if (found.size() == static_cast<size_t>(options_.most_windows)) break;
+    if (finished++ == kMostFinished) break;
+    if (!found.empty() && candidate.score < kHopeless * found.front().score.value()) break;
     const auto result = candidate.fitter.Finish(candidate.rough);
     std::optional<Miss> objection;
     if (const Miss* miss = std::get_if<Miss>(&result)) {
       objection = *miss;
     } else {
-      objection = Objection(std::get<FrameFit>(result).adjustment.frame);
+      objection = Objection(views[0], std::get<FrameFit>(result).adjustment.frame);
     }
     if (objection) {
-      if (getenv("EDGE_DEBUG")) fmt::print("obj {} {}\n", objection->reason, objection->detail);
       if (!first_objection) first_objection = objection;
       continue;
     }
     const FrameFit& fit = std::get<FrameFit>(result);
     WindowEstimate estimate = fit.adjustment.frame.ToEstimate();
     estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
-    estimate.score = Score(views[0], candidate.seed, fit);
+    // The rough fit cannot hide behind freedoms that it did not have.
+    estimate.score = 0.5 * (candidate.score + Score(views[0], fit));
     found.push_back(std::move(estimate));
     fits.push_back(fit);
   }
@@ -193,15 +219,15 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
   const auto best = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
     return a.score.value() < b.score.value();
   });
-  log.Picture("edge_points",
-              [&] { return DrawEdgePoints(views, fits[static_cast<size_t>(best - found.begin())]); },
-              {PictureView{views[0].camera, Pose()}});
+  log.Picture(
+      "edge_points",
+      [&] { return DrawEdgePoints(views, fits[static_cast<size_t>(best - found.begin())]); },
+      {PictureView{views[0].camera, Pose()}});
   WindowEstimate chosen = *best;
   found.erase(best);
   chosen.others = std::move(found);
-  std::stable_sort(chosen.others.begin(), chosen.others.end(), [](const auto& a, const auto& b) {
-    return a.score.value() > b.score.value();
-  });
+  std::stable_sort(chosen.others.begin(), chosen.others.end(),
+                   [](const auto& a, const auto& b) { return a.score.value() > b.score.value(); });
   return chosen;
 }
 
@@ -214,15 +240,11 @@ std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilat
                                 limits_, darkness_);
     seeds.insert(seeds.end(), more.begin(), more.end());
   }
-  std::stable_sort(seeds.begin(), seeds.end(),
-                   [](const auto& a, const auto& b) { return a.clarity > b.clarity; });
-  if (seeds.size() > static_cast<size_t>(options_.most_candidates)) {
-    seeds.resize(static_cast<size_t>(options_.most_candidates));
-  }
-  return seeds;
+  return ClearestSeeds(std::move(seeds), static_cast<size_t>(options_.most_candidates));
 }
 
-std::optional<Miss> EdgeStereoDetector::Objection(const FrameRectangle& frame) const {
+std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
+                                                  const FrameRectangle& frame) const {
   const auto implausible = [](const std::string& detail) {
     return Miss{"implausible_shape", detail};
   };
@@ -236,13 +258,21 @@ std::optional<Miss> EdgeStereoDetector::Objection(const FrameRectangle& frame) c
       longer > limits_.max_side_ratio * shorter) {
     return implausible(fmt::format("{:.2f} x {:.2f} m", frame.width_m, frame.height_m));
   }
+  const double clarity = Clarity(left, frame, darkness_);
+  if (clarity < options_.min_darkness) {
+    return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
+                                        "{:.2f}, {:.2f} are needed",
+                                        clarity, options_.min_darkness)};
+  }
   return std::nullopt;
 }
 
-double EdgeStereoDetector::Score(const CameraView& left, const FrameSeed& seed,
-                                 const FrameFit& fit) const {
-  const double seen = 0.4 * seed.clarity + 0.4 * fit.MeanSupport() + 0.2 * fit.inner_support;
-  return seen * (1.0 - 0.6 * BrightBand(left, fit.adjustment.frame, options_.black_dn));
+double EdgeStereoDetector::Score(const CameraView& left, const FrameFit& fit) const {
+  const FrameRectangle& frame = fit.adjustment.frame;
+  const double seen =
+      0.4 * Clarity(left, frame, darkness_) + 0.4 * fit.MeanSupport() + 0.2 * fit.inner_support;
+  return seen * (fit.is_flat ? 1.0 : kNotFlat) *
+         (1.0 - 0.6 * BrightBand(left, frame, options_.black_dn));
 }
 
 }  // namespace fenestra

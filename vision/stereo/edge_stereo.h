@@ -32,12 +32,11 @@ class EdgeStereoDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
   /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
-  /// "implausible_shape", by how far the best candidate came.
+  /// "implausible_shape", "not_dark", by how far the best candidate came.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
   struct Candidate {
-    FrameSeed seed;
     FrameFitter fitter;
     FrameFit rough;
     double score;
@@ -45,10 +44,10 @@ class EdgeStereoDetector : public Detector {
   std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                const EdgeSegments& right_segments,
                                const cv::Mat1b& right_image) const;
-  std::optional<Miss> Objection(const FrameRectangle& frame) const;
+  std::optional<Miss> Objection(const CameraView& left, const FrameRectangle& frame) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
-  double Score(const CameraView& left, const FrameSeed& seed, const FrameFit& fit) const;
+  double Score(const CameraView& left, const FrameFit& fit) const;
 
   EdgeStereoOptions options_;
   StereoCalibration calibration_;

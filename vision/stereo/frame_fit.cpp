@@ -9,10 +9,18 @@
 namespace fenestra {
 namespace {
 
-constexpr int kRounds = 3;
+// Edges are known to hundredths of a pixel, and where the model is wrong by one the loss would give
+// up a whole side at once. So first all points count as if they were so uncertain.
+constexpr double kRoughTolerance_px = 0.7;
+constexpr std::array<double, 3> kPlaneTolerances_px = {0.3, 0.0, 0.0};
+// Sides in relief are less straight and less parallel than a frame's own.
+constexpr std::array<double, 3> kReliefTolerances_px = {0.3, 0.1, 0.05};
+constexpr std::array<double, 3> kCoarseTolerances_px = {0.7, 0.7, 0.7};
 constexpr double kLeastReach_px = 1.6;
 // Of the places along the inner sides; with fewer the border is left out.
 constexpr double kLeastInnerSupport = 0.5;
+// With fewer in a first round it is not worth while to go on.
+constexpr double kHopelessSupport = 0.3;
 // Of the places along each outer side.
 constexpr double kFlatSupport = 0.5;
 // Panes stand in the frame's thickness, a wall's face or a sill up to some decimetre before it.
@@ -89,7 +97,7 @@ int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideReq
 }
 
 std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
-                                           const FrameKnowledge& knowledge) {
+                                           const FrameKnowledge& knowledge, double tolerance_px) {
   FrameFit fit;
   PlaceCounts places;
   for (size_t view = 0; view < 2; ++view) {
@@ -113,6 +121,9 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
       places.inner += Measure(view, frame, request, fit.points[view]);
     }
   }
+  for (std::vector<EdgePoint>& points : fit.points) {
+    for (EdgePoint& point : points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
+  }
   auto adjustment = AdjustFrame(*views_, fit.points, frame, knowledge);
   if (!adjustment) return std::nullopt;
   fit.adjustment = std::move(*adjustment);
@@ -121,11 +132,11 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
 }
 
 std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& knowledge,
-                                            int count) {
-  for (int i = 0; i < count; ++i) {
+                                            const std::array<double, 3>& tolerances_px) {
+  for (size_t i = 0; i < tolerances_px.size(); ++i) {
     FrameKnowledge now = knowledge;
-    if (i + 1 == count) now.size = settings_.size;
-    auto next = Round(fit.adjustment.frame, now);
+    if (i + 1 == tolerances_px.size()) now.size = settings_.size;
+    auto next = Round(fit.adjustment.frame, now, tolerances_px[i]);
     if (!next) return std::nullopt;
     fit = std::move(*next);
   }
@@ -133,21 +144,31 @@ std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& 
 }
 
 std::optional<FrameFit> FrameFitter::FitRoughly(const FrameRectangle& start) {
-  return Round(start, {});
+  return Round(start, {}, kRoughTolerance_px);
 }
 
 std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
-  auto fit = Rounds(start, {}, kRounds);
+  if (border_) {
+    // One round tells whether the inner sides are in that plane at all.
+    const auto first = Round(start.adjustment.frame, {}, kPlaneTolerances_px[0]);
+    if (!first || first->inner_support < kHopelessSupport) return std::nullopt;
+  }
+  auto fit = Rounds(start, {}, kPlaneTolerances_px);
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
   if (border_ && fit->inner_support < kLeastInnerSupport) return std::nullopt;
   return fit;
 }
 
 std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
-  auto fit = Rounds(start, {.size = {}, .outer_relief = {}, .inner_relief = kBehind}, kRounds);
-  if (fit && fit->inner_support < kLeastInnerSupport) {
+  const FrameKnowledge knowledge{.size = {}, .outer_relief = {}, .inner_relief = kBehind};
+  const auto first = Round(start.adjustment.frame, knowledge, kPlaneTolerances_px[0]);
+  std::optional<FrameFit> fit;
+  if (first && first->inner_support >= kHopelessSupport) {
+    fit = Rounds(start, knowledge, kPlaneTolerances_px);
+  }
+  if (!fit || fit->LeastSupport() < kFlatSupport || fit->inner_support < kLeastInnerSupport) {
     border_.reset();
-    fit = Rounds(start, {}, kRounds);
+    fit = Rounds(start, {}, kPlaneTolerances_px);
   }
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
   StandBack(*fit);
@@ -155,7 +176,14 @@ std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
 }
 
 std::optional<FrameFit> FrameFitter::FitInRelief(const FrameFit& start) {
-  return Rounds(start, {.size = {}, .outer_relief = kWall, .inner_relief = kPanes}, kRounds);
+  auto fit = Rounds(start, {.size = {}, .outer_relief = kWall, .inner_relief = kPanes},
+                    kReliefTolerances_px);
+  if (!fit || fit->LeastSupport() < settings_.min_side_support) {
+    border_.reset();
+    fit = Rounds(start, {}, kCoarseTolerances_px);
+  }
+  if (fit) fit->is_flat = false;
+  return fit;
 }
 
 std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {

@@ -24,6 +24,7 @@ struct FrameFit {
   /// the better view, and of all inner sides.
   std::array<double, 4> outer_support = {};
   double inner_support = 0.0;
+  bool is_flat = true;  ///< Whether the outer sides are in one plane, as well as the images tell.
 
   double LeastSupport() const;
   double MeanSupport() const;
@@ -47,17 +48,21 @@ class FrameFitter {
   ///   2. the outer sides in one plane, the inner ones in another. Up to 8.5 cm behind it that is
   ///      the depth of the frame. Farther back, what is seen as the outer sides is the wall's face,
   ///      and the frame stands back in it;
-  ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame there.
+  ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame
+  ///   there;
+  ///   4. all in one plane, but only to 0.7 px.
   ///
   /// Miss: "no_edges", "unsupported_side".
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);
 
  private:
-  std::optional<FrameFit> Round(const FrameRectangle& frame, const FrameKnowledge& knowledge);
+  std::optional<FrameFit> Round(const FrameRectangle& frame, const FrameKnowledge& knowledge,
+                                double tolerance_px);
   std::optional<FrameFit> FitInOnePlane(const FrameFit& start);
   std::optional<FrameFit> FitBeforePanes(const FrameFit& start);
   std::optional<FrameFit> FitInRelief(const FrameFit& start);
-  std::optional<FrameFit> Rounds(FrameFit fit, const FrameKnowledge& knowledge, int count);
+  std::optional<FrameFit> Rounds(FrameFit fit, const FrameKnowledge& knowledge,
+                                 const std::array<double, 3>& tolerances_px);
   int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
               std::vector<EdgePoint>& points);
 

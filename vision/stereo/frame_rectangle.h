@@ -19,9 +19,9 @@ enum class Border { kOuter, kInner };
 struct FrameRectangle {
   Eigen::Matrix3d R_LO = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p_LO = Eigen::Vector3d::Zero();
-  double width_m = 0.0;   ///< Outer.
-  double height_m = 0.0;  ///< Outer.
-  double border_m = 0.0;  ///< Of the frame, seen from its front.
+  double width_m = 0.0;                       ///< Outer.
+  double height_m = 0.0;                      ///< Outer.
+  double border_m = 0.0;                      ///< Of the frame, seen from its front.
   std::array<double, 4> outer_relief_m = {};  ///< By side, along +Z.
   double inner_relief_m = 0.0;
 

@@ -13,7 +13,9 @@ using Eigen::Vector3d;
 
 constexpr double kLeastCommonRows = 0.4;
 constexpr double kLeastClarity = 0.3;  // Of that in the left image.
-constexpr double kMostWarp = 0.1;      // Distance of the diagonals' middles over the longer side.
+// Of the depth: corners that are so near are the same.
+constexpr double kSame = 0.012;
+constexpr double kMostWarp = 0.1;  // Distance of the diagonals' middles over the longer side.
 
 // Disparities of a side's upper and lower end.
 struct SideDisparity {
@@ -56,6 +58,13 @@ bool IsPlausible(const std::array<Vector3d, 4>& p_FV, const FrameLimits& limits)
   return gap.norm() < kMostWarp * longer;
 }
 
+bool NearlySame(const FrameSeed& a, const FrameSeed& b) {
+  for (size_t i = 0; i < 4; ++i) {
+    if ((a.p_FV[i] - b.p_FV[i]).norm() > kSame * a.p_FV[i].z()) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegments& right_segments,
@@ -85,9 +94,20 @@ std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegmen
       seeds.push_back(seed);
     }
   }
+  return seeds;
+}
+
+std::vector<FrameSeed> ClearestSeeds(std::vector<FrameSeed> seeds, size_t most) {
   std::stable_sort(seeds.begin(), seeds.end(),
                    [](const FrameSeed& a, const FrameSeed& b) { return a.clarity > b.clarity; });
-  return seeds;
+  std::vector<FrameSeed> kept;
+  for (const FrameSeed& seed : seeds) {
+    if (kept.size() == most) break;
+    const bool known = std::any_of(kept.begin(), kept.end(),
+                                   [&](const FrameSeed& other) { return NearlySame(seed, other); });
+    if (!known) kept.push_back(seed);
+  }
+  return kept;
 }
 
 }  // namespace fenestra

@@ -30,9 +30,12 @@ struct FrameSeed {
 /// Finds the upright sides of a quadrilateral of the rectified left image again in the right one.
 /// Each corner's disparity is that of its upright side; every pair of edges of the right image that
 /// makes a plausible rectangle in space of them, and that is dark in the right image too, is a
-/// seed. The clearest first.
+/// seed.
 std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegments& right_segments,
                                  const cv::Mat1b& right_image, const RectifiedCamera& camera,
                                  const FrameLimits& limits, const DarknessSettings& darkness);
+
+/// The clearest first; of those that are nearly the same only the clearest, and at most `most`.
+std::vector<FrameSeed> ClearestSeeds(std::vector<FrameSeed> seeds, size_t most);
 
 }  // namespace fenestra
