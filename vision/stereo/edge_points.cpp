@@ -20,7 +20,7 @@ constexpr int kFewestPlaces = 3;
 constexpr int kMostPlaces = 40;
 constexpr int kIterations = 6;
 constexpr double kLeastVariance = 1.0 / 12.0;  // Of a grey value that is rounded.
-constexpr double kLeastSigma_px = 0.004;       // What the model of blur and lens is worth.
+constexpr double kLeastSigma_px = 0.001;       // What the model of blur and lens is worth.
 constexpr double kSmallestBlur_px = 0.25;
 constexpr double kLargestBlur_px = 1.5;
 // Residuals of more than this many times the side's median variance are of something else.

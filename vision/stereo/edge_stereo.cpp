@@ -17,6 +17,8 @@ constexpr double kReach_px = 4.0;
 constexpr int kMostFinished = 4;
 // Candidates that begin with less than this share of the best one's score are not measured.
 constexpr double kHopeless = 0.7;
+// A window whose size differs by this share from what is expected is another one.
+constexpr double kUnexpected = 0.08;
 constexpr double kNotFlat =
     0.85;  // What a frame's score is worth whose sides are not in one plane.
 
@@ -173,16 +175,21 @@ Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& l
 Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
                                       const std::vector<FrameSeed>& seeds, StageLog& log) const {
   std::vector<Candidate> candidates;
+  Miss last_objection{"no_edges", "too few edge points to fix a rectangle"};
   for (const FrameSeed& seed : seeds) {
     std::array<Eigen::Vector3d, 4> p_LV;
     for (size_t i = 0; i < 4; ++i) p_LV[i] = rectification_.R_LF() * seed.p_FV[i];
     FrameFitter fitter(views, fitting_);
     auto rough = fitter.FitRoughly(FrameRectangle::FromCorners(p_LV));
     if (!rough) continue;
+    if (auto objection = ObjectionToSize(rough->adjustment.frame)) {
+      last_objection = *objection;
+      continue;
+    }
     const double score = Score(views[0], *rough);
     candidates.push_back({std::move(fitter), std::move(*rough), score});
   }
-  if (candidates.empty()) return Miss{"no_edges", "too few edge points to fix a rectangle"};
+  if (candidates.empty()) return last_objection;
   const auto by_score = [](const auto& a, const auto& b) { return a.score > b.score; };
   std::stable_sort(candidates.begin(), candidates.end(), by_score);
 
@@ -265,6 +272,20 @@ std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
                                         clarity, options_.min_darkness)};
   }
   return std::nullopt;
+}
+
+std::optional<Miss> EdgeStereoDetector::ObjectionToSize(const FrameRectangle& rough) const {
+  if (options_.expected_width_m <= 0.0) return std::nullopt;
+  const double tolerance_m =
+      std::max(kUnexpected * std::min(options_.expected_width_m, options_.expected_height_m),
+               5.0 * options_.expected_size_sigma_m);
+  if (std::abs(rough.width_m - options_.expected_width_m) <= tolerance_m &&
+      std::abs(rough.height_m - options_.expected_height_m) <= tolerance_m) {
+    return std::nullopt;
+  }
+  return Miss{"unexpected_size",
+              fmt::format("{:.2f} x {:.2f} m instead of {:.2f} x {:.2f} m", rough.width_m,
+                          rough.height_m, options_.expected_width_m, options_.expected_height_m)};
 }
 
 double EdgeStereoDetector::Score(const CameraView& left, const FrameFit& fit) const {

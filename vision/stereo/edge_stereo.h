@@ -32,7 +32,7 @@ class EdgeStereoDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
   /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
-  /// "implausible_shape", "not_dark", by how far the best candidate came.
+  /// "implausible_shape", "not_dark", "unexpected_size", by how far the best candidate came.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
@@ -47,6 +47,8 @@ class EdgeStereoDetector : public Detector {
   std::optional<Miss> Objection(const CameraView& left, const FrameRectangle& frame) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
+  /// To a rectangle that was fitted without knowing what is expected.
+  std::optional<Miss> ObjectionToSize(const FrameRectangle& rough) const;
   double Score(const CameraView& left, const FrameFit& fit) const;
 
   EdgeStereoOptions options_;

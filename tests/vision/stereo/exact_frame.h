@@ -1,0 +1,37 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "core/calibration.h"
+#include "core/observation.h"
+#include "core/random_stream.h"
+
+namespace fenestra::testing {
+
+/// A painted frame whose pictures are exact: the area that it covers of each quarter of a pixel in
+/// either direction, blurred there, gathered by pixels. Places of edges are right to 1e-3 px, which
+/// sampling with rays would need a million of them a pixel for. Frame O as PlanarTarget's.
+struct ExactFrame {
+  Pose X_LO;
+  double width_m = 1.0;
+  double height_m = 1.0;
+  double border_m = 0.1;
+  double wall_dn = 165.0;
+  double frame_dn = 12.0;
+  double opening_dn = 165.0;
+  double blur_px = 0.45;
+};
+
+/// Grey values without noise or rounding. The camera must have no distortion and the frame must be
+/// wholly in its image.
+cv::Mat1f ExactPicture(const CameraModel& camera, const Pose& X_CL, const ExactFrame& frame);
+
+/// The same with noise, the same in every pixel, rounded to 8 bits.
+StereoObservation ExactPair(const StereoCalibration& rig, const ExactFrame& frame, double noise_dn,
+                            const RandomStream& stream);
+
+/// Noise for a pair that has been rendered.
+StereoObservation WithNoise(const cv::Mat1f& left, const cv::Mat1f& right, double noise_dn,
+                            const RandomStream& stream);
+
+}  // namespace fenestra::testing
