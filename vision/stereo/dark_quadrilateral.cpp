@@ -105,7 +105,8 @@ std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
                                    Meet(rights[r], bottoms[b]), Meet(bottoms[b], lefts[l])};
           if (!IsConvex(q)) continue;
           const double clarity = Clarity(image, q, settings, min_darkness);
-          if (clarity > 0.0) found.push_back({q, clarity});
+          if (clarity <= 0.0 || !IsDarkThroughout(image, q, settings)) continue;
+          found.push_back({q, clarity});
         }
       }
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace fenestra {
 namespace {
@@ -9,6 +11,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int kPlaces = 16;
+constexpr double kExceptions = 0.125;
 constexpr double kEndShare = 0.06;  // Left out at each end, where other sides begin.
 const double kFullContrast = std::log(4.0);
 
@@ -20,33 +23,64 @@ double Grey(const cv::Mat1b& image, const Vector2d& p) {
   return image(v, u);
 }
 
-double DarkAt(const cv::Mat1b& image, const Vector2d& p, const Vector2d& right,
-              const DarknessSettings& settings) {
+// Mean grey values on either side of an edge, without the black level; nullopt outside the image.
+struct GreyPair {
+  double dark;
+  double bright;
+};
+std::optional<GreyPair> GreysAt(const cv::Mat1b& image, const Vector2d& p, const Vector2d& right,
+                                const DarknessSettings& settings) {
   const double near = 0.5 * settings.reach_px;
   const double far = settings.reach_px;
   const double dark_a = Grey(image, p + near * right);
   const double dark_b = Grey(image, p + far * right);
   const double bright_a = Grey(image, p - near * right);
   const double bright_b = Grey(image, p - far * right);
-  if (std::min({dark_a, dark_b, bright_a, bright_b}) < 0.0) return 0.0;
-  const double dark = 0.5 * (dark_a + dark_b) - settings.black_dn;
-  const double bright = 0.5 * (bright_a + bright_b) - settings.black_dn;
-  if (bright - dark < settings.min_contrast_dn) return 0.0;
-  return std::min(1.0, std::log(bright / std::max(1.0, dark)) / kFullContrast);
+  if (std::min({dark_a, dark_b, bright_a, bright_b}) < 0.0) return std::nullopt;
+  return GreyPair{0.5 * (dark_a + dark_b) - settings.black_dn,
+                  0.5 * (bright_a + bright_b) - settings.black_dn};
+}
+
+// Calls `use` with the greys at each place along a line.
+template <typename Use>
+void AlongLine(const cv::Mat1b& image, const Vector2d& from, const Vector2d& to,
+               const DarknessSettings& settings, Use use) {
+  const Vector2d along = to - from;
+  const Vector2d right = Vector2d(-along.y(), along.x()).normalized();
+  for (int i = 0; i < kPlaces; ++i) {
+    const double share = kEndShare + (1.0 - 2.0 * kEndShare) * (i + 0.5) / kPlaces;
+    if (const auto greys = GreysAt(image, from + share * along, right, settings)) use(*greys);
+  }
 }
 
 }  // namespace
 
 double DarkOnTheRight(const cv::Mat1b& image, const Vector2d& from, const Vector2d& to,
                       const DarknessSettings& settings) {
-  const Vector2d along = to - from;
-  const Vector2d right = Vector2d(-along.y(), along.x()).normalized();
   double sum = 0.0;
-  for (int i = 0; i < kPlaces; ++i) {
-    const double share = kEndShare + (1.0 - 2.0 * kEndShare) * (i + 0.5) / kPlaces;
-    sum += DarkAt(image, from + share * along, right, settings);
-  }
+  AlongLine(image, from, to, settings, [&](const GreyPair& greys) {
+    if (greys.bright - greys.dark < settings.min_contrast_dn) return;
+    sum += std::min(1.0, std::log(greys.bright / std::max(1.0, greys.dark)) / kFullContrast);
+  });
   return sum / kPlaces;
+}
+
+bool IsDarkThroughout(const cv::Mat1b& image, const Quadrilateral& corners_px,
+                      const DarknessSettings& settings) {
+  std::vector<double> dark;
+  std::vector<double> bright;
+  for (size_t i = 0; i < 4; ++i) {
+    AlongLine(image, corners_px[i], corners_px[(i + 1) % 4], settings,
+              [&](const GreyPair& greys) {
+                dark.push_back(greys.dark);
+                bright.push_back(greys.bright);
+              });
+  }
+  if (dark.empty()) return false;
+  const auto exceptions = static_cast<std::ptrdiff_t>(kExceptions * dark.size());
+  std::nth_element(dark.begin(), dark.end() - 1 - exceptions, dark.end());
+  std::nth_element(bright.begin(), bright.begin() + exceptions, bright.end());
+  return *(dark.end() - 1 - exceptions) < *(bright.begin() + exceptions);
 }
 
 double DarkInside(const cv::Mat1b& image, const Quadrilateral& corners_px,

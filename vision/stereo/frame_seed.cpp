@@ -90,6 +90,7 @@ std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegmen
       if (!IsPlausible(seed.p_FV, limits)) continue;
       const double clarity = DarkInside(right_image, right, darkness);
       if (clarity < kLeastClarity * left.clarity) continue;
+      if (!IsDarkThroughout(right_image, right, darkness)) continue;
       seed.clarity = 0.5 * (left.clarity + clarity);
       seeds.push_back(seed);
     }
