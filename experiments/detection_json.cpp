@@ -14,6 +14,12 @@ ordered_json EstimateJson(const WindowEstimate& estimate) {
                        {"corners_m", ToJson(estimate.p_CV)},
                        {"normal", ToJson(estimate.normal_C)}};
   if (estimate.covariance_C) json["centroid_covariance_m2"] = ToJson(*estimate.covariance_C);
+  json["size_m"] = {(estimate.p_CV[1] - estimate.p_CV[0]).norm(),
+                    (estimate.p_CV[3] - estimate.p_CV[0]).norm()};
+  if (estimate.score) json["score"] = *estimate.score;
+  for (const WindowEstimate& other : estimate.others) {
+    json["others"].push_back(EstimateJson(other));
+  }
   return json;
 }
 
