@@ -17,8 +17,8 @@ struct DarkQuadrilateral {
 };
 
 /// Convex quadrilaterals whose four sides are edges that reach near to their corners and are each
-/// at least so dark on their inside, and IsDarkThroughout; the clearest first; of those that are nearly the same only the
-/// clearest, and at most `most` of them.
+/// at least so dark on their inside, and IsDarkThroughout; the clearest first; of those that are
+/// nearly the same only the clearest, and at most `most` of them.
 std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
                                                       const EdgeSegments& segments,
                                                       const DarknessSettings& settings,

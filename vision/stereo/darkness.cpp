@@ -70,11 +70,10 @@ bool IsDarkThroughout(const cv::Mat1b& image, const Quadrilateral& corners_px,
   std::vector<double> dark;
   std::vector<double> bright;
   for (size_t i = 0; i < 4; ++i) {
-    AlongLine(image, corners_px[i], corners_px[(i + 1) % 4], settings,
-              [&](const GreyPair& greys) {
-                dark.push_back(greys.dark);
-                bright.push_back(greys.bright);
-              });
+    AlongLine(image, corners_px[i], corners_px[(i + 1) % 4], settings, [&](const GreyPair& greys) {
+      dark.push_back(greys.dark);
+      bright.push_back(greys.bright);
+    });
   }
   if (dark.empty()) return false;
   const auto exceptions = static_cast<std::ptrdiff_t>(kExceptions * dark.size());

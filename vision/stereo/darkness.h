@@ -23,8 +23,8 @@ double DarkOnTheRight(const cv::Mat1b& image, const Eigen::Vector2d& from,
 double DarkInside(const cv::Mat1b& image, const Quadrilateral& corners_px,
                   const DarknessSettings& settings);
 
-/// Whether one grey value parts what is within its sides from what is outside of them, all around: a
-/// frame is of one paint. What four unrelated edges enclose is not, as a rule. An eighth of the
+/// Whether one grey value parts what is within its sides from what is outside of them, all around:
+/// a frame is of one paint. What four unrelated edges enclose is not, as a rule. An eighth of the
 /// places on either side of the border may be exceptions, for what stands before it.
 bool IsDarkThroughout(const cv::Mat1b& image, const Quadrilateral& corners_px,
                       const DarknessSettings& settings);

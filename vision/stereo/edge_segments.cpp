@@ -10,8 +10,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kSobelOfStep = 3.0;  // Of a step of 1 DN that a good lens has blurred.
-// An edge of darkness 1 (4 : 1) rises by 1.2 times the grey value in its middle, weaker ones by about
-// their share of that. Half of it is asked for, as blur takes some.
+// An edge of darkness 1 (4 : 1) rises by 1.2 times the grey value in its middle, weaker ones by
+// about their share of that. Half of it is asked for, as blur takes some.
 constexpr double kLeastContrast = 0.6;
 constexpr double kBend_px = 0.8;
 constexpr double kFollow_px = 1.6;  // From row to row; more than an edge at 45° moves.
@@ -42,13 +42,16 @@ class ChainTracker {
         chain_at_{std::vector<int>(width, -1), std::vector<int>(width, -1)} {}
 
   void AddRow(int v, const uchar* grey, const short* across, const short* along, int width) {
+    // Every pixel passes here: whole numbers, and what most pixels fail by first.
+    const int threshold = static_cast<int>(std::ceil(threshold_));
     for (int u = 1; u + 1 < width; ++u) {
       const int strength = std::abs(across[u]);
-      if (strength < threshold_ || strength < kObliqueness * std::abs(along[u])) continue;
-      if (strength < relative_threshold_ * (grey[u] - black_dn_)) continue;
+      if (strength < threshold) continue;
       const int before = std::abs(across[u - 1]);
       const int after = std::abs(across[u + 1]);
       if (strength < before || strength <= after) continue;
+      if (strength < kObliqueness * std::abs(along[u])) continue;
+      if (strength < relative_threshold_ * (grey[u] - black_dn_)) continue;
       const double bend = before - 2.0 * strength + after;
       const double offset = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
       Append(across[u] < 0, {u + offset, v});
