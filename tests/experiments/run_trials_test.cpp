@@ -79,7 +79,7 @@ TEST(RunStudyTest, LeavesEveryFileAndEveryTrialReplaysToTheLastBit) {
   const TemporaryFolder folder;
   const StudyRun run{.study = SmallStudy(), .study_text = kStudy, .out = folder / "out", .jobs = 2};
   const std::vector<CellSummary> summaries = RunStudy(run);
-  EXPECT_EQ(summaries.size(), 4u);
+  EXPECT_EQ(summaries.size(), 6u);
   for (const char* name : {"results.sqlite", "trials.csv", "summary.csv", "summary.md",
                            "study.yaml", "pictures/cell_000_main_stereo/paper-stereo/left.png",
                            "pictures/cell_002_main_rgbd/paper-rgbd/color.png"}) {

@@ -67,7 +67,8 @@ void CountSupport(const PlaceCounts& places, FrameFit& fit) {
 void StandBack(FrameFit& fit) {
   FrameAdjustment& adjustment = fit.adjustment;
   const double inner_m = adjustment.frame.inner_relief_m;
-  if (inner_m > -kRebate_m) return;
+  const double sigma_m = std::sqrt(adjustment.covariance(13, 13));
+  if (inner_m + 2.0 * sigma_m > -kRebate_m) return;  // A far frame's thickness is but guessed.
   const Eigen::Vector3d normal = adjustment.frame.R_LO.col(2);
   adjustment.frame.p_LO += (inner_m - kPanes.mean_m) * normal;
   for (double& relief_m : adjustment.frame.outer_relief_m) relief_m -= inner_m - kPanes.mean_m;
