@@ -2,8 +2,8 @@
 
 #include "core/calibration.h"
 #include "core/detector.h"
+#include "vision/frame/frame_fit.h"
 #include "vision/stereo/edge_stereo_options.h"
-#include "vision/stereo/frame_fit.h"
 #include "vision/stereo/frame_seed.h"
 #include "vision/stereo/rectification.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/detection.h"
+#include "vision/frame/quadrilateral.h"
 #include "vision/stereo/matched_patch.h"
-#include "vision/stereo/quadrilateral.h"
 
 namespace fenestra {
 

@@ -3,9 +3,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/stereo/dark_quadrilateral.h"
-#include "vision/stereo/edge_segments.h"
-#include "vision/stereo/frame_rectangle.h"
+#include "vision/frame/dark_quadrilateral.h"
+#include "vision/frame/edge_segments.h"
+#include "vision/frame/frame_rectangle.h"
 #include "vision/stereo/rectified_camera.h"
 
 namespace fenestra {

@@ -21,8 +21,8 @@ namespace fenestra {
 /// A departure from Bradski and Kaehler 2008, who search once; a form of coarse-to-fine search.
 ///
 /// `disparity` is the result of the first search with the same pair and settings; new matches
-/// replace old ones, those near a taller patch first. Nothing is done for a patch with d (1 + s / B) beyond the search range for
-/// the narrowest frame, s / B = `narrowest_in_baselines`.
+/// replace old ones, those near a taller patch first. Nothing is done for a patch with d (1 + s /
+/// B) beyond the search range for the narrowest frame, s / B = `narrowest_in_baselines`.
 cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left_seen,
                                 const cv::Mat1b& right_seen, const BlockMatchingSettings& settings,
                                 const cv::Mat1f& disparity,

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "core/detection.h"
+#include "vision/frame/quadrilateral.h"
 #include "vision/stereo/disparity_plane.h"
-#include "vision/stereo/quadrilateral.h"
 
 namespace fenestra {
 

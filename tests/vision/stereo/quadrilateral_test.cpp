@@ -1,4 +1,4 @@
-#include "vision/stereo/quadrilateral.h"
+#include "vision/frame/quadrilateral.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "core/camera_model.h"
 #include "core/pose.h"
-#include "vision/stereo/frame_rectangle.h"
+#include "vision/frame/frame_rectangle.h"
 
 namespace fenestra {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "vision/stereo/quadrilateral.h"
+#include "vision/frame/quadrilateral.h"
 
 namespace fenestra {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "vision/stereo/edge_points.h"
-#include "vision/stereo/frame_rectangle.h"
+#include "vision/frame/edge_points.h"
+#include "vision/frame/frame_rectangle.h"
 
 namespace fenestra {
 

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "vision/stereo/edge_points.h"
+#include "vision/frame/edge_points.h"
 
 namespace fenestra {
 

@@ -1,4 +1,4 @@
-#include "vision/stereo/edge_points.h"
+#include "vision/frame/edge_points.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "vision/stereo/blurred_step.h"
+#include "vision/frame/blurred_step.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "vision/stereo/edge_segments.h"
+#include "vision/frame/edge_segments.h"
 
 #include <algorithm>
 #include <cmath>

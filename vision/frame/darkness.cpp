@@ -1,4 +1,4 @@
-#include "vision/stereo/darkness.h"
+#include "vision/frame/darkness.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "vision/stereo/frame_border.h"
+#include "vision/frame/frame_border.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "vision/stereo/frame_adjustment.h"
+#include "vision/frame/frame_adjustment.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

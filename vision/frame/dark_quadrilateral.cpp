@@ -1,4 +1,4 @@
-#include "vision/stereo/dark_quadrilateral.h"
+#include "vision/frame/dark_quadrilateral.h"
 
 #include <algorithm>
 #include <bitset>

@@ -1,4 +1,4 @@
-#include "vision/stereo/frame_rectangle.h"
+#include "vision/frame/frame_rectangle.h"
 
 #include <Eigen/Geometry>
 

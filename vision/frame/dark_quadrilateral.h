@@ -3,9 +3,9 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/stereo/darkness.h"
-#include "vision/stereo/edge_segments.h"
-#include "vision/stereo/quadrilateral.h"
+#include "vision/frame/darkness.h"
+#include "vision/frame/edge_segments.h"
+#include "vision/frame/quadrilateral.h"
 
 namespace fenestra {
 

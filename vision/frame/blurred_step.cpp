@@ -1,4 +1,4 @@
-#include "vision/stereo/blurred_step.h"
+#include "vision/frame/blurred_step.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "vision/stereo/frame_fit.h"
+#include "vision/frame/frame_fit.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "vision/stereo/darkness.h"
+#include "vision/frame/darkness.h"
 
 namespace fenestra {
 

@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "core/detection.h"
-#include "vision/stereo/frame_adjustment.h"
-#include "vision/stereo/frame_border.h"
+#include "vision/frame/frame_adjustment.h"
+#include "vision/frame/frame_border.h"
 
 namespace fenestra {
 
