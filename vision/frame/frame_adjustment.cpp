@@ -8,6 +8,7 @@ namespace fenestra {
 namespace {
 
 constexpr int kMost = FrameRectangle::kParameters;
+constexpr size_t kFewestPoints = 20;
 constexpr int kIterations = 25;
 constexpr double kTukey = 4.685;
 constexpr double kInlier = 3.5;
@@ -15,13 +16,13 @@ constexpr double kConverged = 1e-7;  // Squared step in standard deviations.
 
 using Matrix = Eigen::Matrix<double, kMost, kMost>;
 using Vector = FrameRectangle::Step;
-using Points = std::array<std::vector<EdgePoint>, 2>;
+using Points = std::vector<std::vector<EdgePoint>>;
 
 // In standard deviations; nullopt where a point is behind a camera.
-std::optional<std::vector<double>> Residuals(const std::array<CameraView, 2>& views,
+std::optional<std::vector<double>> Residuals(std::span<const CameraView> views,
                                              const Points& points, const FrameRectangle& frame) {
   std::vector<double> residuals;
-  for (size_t view = 0; view < 2; ++view) {
+  for (size_t view = 0; view < points.size(); ++view) {
     for (const EdgePoint& point : points[view]) {
       const Eigen::Vector3d p_LQ = frame.PointOn(point.side, point.border, point.share);
       const auto pixel = views[view].camera.Project(views[view].X_CL * p_LQ);
@@ -68,10 +69,10 @@ struct NormalEquations {
   Vector gradient = Vector::Zero();
 };
 
-NormalEquations Linearise(const std::array<CameraView, 2>& views, const Points& points,
+NormalEquations Linearise(std::span<const CameraView> views, const Points& points,
                           const FrameRectangle& frame, const Loss& loss) {
   NormalEquations equations;
-  for (size_t view = 0; view < 2; ++view) {
+  for (size_t view = 0; view < points.size(); ++view) {
     const Eigen::Matrix3d& R_CL = views[view].X_CL.rotation();
     for (const EdgePoint& point : points[view]) {
       const auto on_side = frame.LineariseOn(point.side, point.border, point.share);
@@ -137,6 +138,40 @@ double LossOfKnown(const FrameRectangle& frame, const std::vector<Known>& known)
   return sum;
 }
 
+// m of a measured plane as the frame has it, minus the measured one.
+Eigen::Vector3d PlaneResidual(const FrameRectangle& frame, const PlaneMeasurement& plane) {
+  const Eigen::Vector3d normal = frame.R_LO.col(2);
+  return normal / (normal.dot(frame.p_LO) + plane.relief_m) - plane.m;
+}
+
+// `weight`: by how much residuals of edges are larger than their standard deviations, squared.
+void AddPlanes(const FrameRectangle& frame, const std::vector<PlaneMeasurement>& planes,
+               double weight, NormalEquations& equations) {
+  for (const PlaneMeasurement& plane : planes) {
+    const Eigen::Vector3d normal = frame.R_LO.col(2);
+    const double q = normal.dot(frame.p_LO) + plane.relief_m;
+    Eigen::Matrix3d normal_by_turn;  // R (turn x e_z).
+    normal_by_turn << -frame.R_LO.col(1), frame.R_LO.col(0), Eigen::Vector3d::Zero();
+    Eigen::Matrix<double, 3, 6> j;
+    j.leftCols<3>() =
+        (Eigen::Matrix3d::Identity() - normal * frame.p_LO.transpose() / q) * normal_by_turn / q;
+    j.rightCols<3>() = -normal * normal.transpose() / (q * q);
+    const Eigen::Matrix<double, 6, 3> weighted = weight * j.transpose() * plane.information;
+    equations.matrix.topLeftCorner<6, 6>() += weighted * j;
+    equations.gradient.head<6>() -= weighted * PlaneResidual(frame, plane);
+  }
+}
+
+double LossOfPlanes(const FrameRectangle& frame, const std::vector<PlaneMeasurement>& planes,
+                    double weight) {
+  double sum = 0.0;
+  for (const PlaneMeasurement& plane : planes) {
+    const Eigen::Vector3d residual = PlaneResidual(frame, plane);
+    sum += weight * residual.dot(plane.information * residual);
+  }
+  return sum;
+}
+
 bool HasInner(const Points& points) {
   for (const std::vector<EdgePoint>& view : points) {
     for (const EdgePoint& point : view) {
@@ -157,11 +192,12 @@ std::vector<int> FittedParameters(const Points& points, const FrameKnowledge& kn
 
 class Adjustment {
  public:
-  Adjustment(const std::array<CameraView, 2>& views, const Points& points,
+  Adjustment(std::span<const CameraView> views, const Points& points,
              const FrameKnowledge& knowledge)
       : views_(views),
         points_(points),
         known_(AllKnown(knowledge)),
+        planes_(knowledge.planes),
         fitted_(FittedParameters(points, knowledge)) {}
 
   // False if the points cannot be seen from there.
@@ -178,13 +214,12 @@ class Adjustment {
     loss_.square = square;
     double damping = 1e-4;
     for (int i = 0; i < kIterations; ++i) {
-      const NormalEquations equations = Equations();
+      const NormalEquations equations = Equations(loss_.scale * loss_.scale);
       const Vector step = Solve(equations, damping);
       if (!step.allFinite()) return false;
       const FrameRectangle moved = frame_.Moved(step);
       const auto after = Residuals(views_, points_, moved);
-      const double before = loss_.Of(residuals_) + LossOfKnown(frame_, known_);
-      if (!after || loss_.Of(*after) + LossOfKnown(moved, known_) > before) {
+      if (!after || !(LossOf(moved, *after) <= LossOf(frame_, residuals_))) {
         damping *= 10.0;
         if (damping > 1e6) break;
         continue;
@@ -205,7 +240,8 @@ class Adjustment {
     double squares = 0.0;
     double count = 0.0;
     size_t next = 0;
-    for (size_t view = 0; view < 2; ++view) {
+    result.is_inlier.resize(points_.size());
+    for (size_t view = 0; view < points_.size(); ++view) {
       for (size_t i = 0; i < points_[view].size(); ++i) {
         const double residual = residuals_[next++];
         const double weight = loss_.Weight(residual);
@@ -217,22 +253,30 @@ class Adjustment {
     const auto parameters = static_cast<double>(fitted_.size());
     if (count <= 1.5 * parameters) return std::nullopt;
     result.scale = std::sqrt(squares / (count - parameters));
-    const Eigen::MatrixXd information = Equations().matrix(fitted_, fitted_);
+    // Edges may be off by more than their noise; measured planes are not, because of that.
+    const double excess = std::max(1.0, result.scale * result.scale);
+    const Eigen::MatrixXd information = Equations(excess).matrix(fitted_, fitted_);
     const Eigen::LDLT<Eigen::MatrixXd> decomposition(information);
     if (decomposition.info() != Eigen::Success || !decomposition.isPositive()) return std::nullopt;
     const auto size = static_cast<Eigen::Index>(fitted_.size());
     result.covariance.setZero();
     const Eigen::MatrixXd inverse = decomposition.solve(Eigen::MatrixXd::Identity(size, size));
-    result.covariance(fitted_, fitted_) = std::max(1.0, result.scale * result.scale) * inverse;
+    result.covariance(fitted_, fitted_) = excess * inverse;
     if (!result.covariance.allFinite()) return std::nullopt;
     return result;
   }
 
  private:
-  NormalEquations Equations() const {
+  NormalEquations Equations(double plane_weight) const {
     NormalEquations equations = Linearise(views_, points_, frame_, loss_);
     AddKnown(frame_, known_, equations);
+    AddPlanes(frame_, planes_, plane_weight, equations);
     return equations;
+  }
+
+  double LossOf(const FrameRectangle& frame, const std::vector<double>& residuals) const {
+    return loss_.Of(residuals) + LossOfKnown(frame, known_) +
+           LossOfPlanes(frame, planes_, loss_.scale * loss_.scale);
   }
 
   // Of the fitted parameters; the others stay.
@@ -246,9 +290,10 @@ class Adjustment {
     return step;
   }
 
-  const std::array<CameraView, 2>& views_;
+  std::span<const CameraView> views_;
   const Points& points_;
   std::vector<Known> known_;
+  std::vector<PlaneMeasurement> planes_;
   std::vector<int> fitted_;
   FrameRectangle frame_;
   std::vector<double> residuals_;
@@ -257,10 +302,12 @@ class Adjustment {
 
 }  // namespace
 
-std::optional<FrameAdjustment> AdjustFrame(const std::array<CameraView, 2>& views,
-                                           const Points& points, const FrameRectangle& start,
+std::optional<FrameAdjustment> AdjustFrame(std::span<const CameraView> views, const Points& points,
+                                           const FrameRectangle& start,
                                            const FrameKnowledge& knowledge) {
-  if (points[0].size() + points[1].size() < 2 * kMost) return std::nullopt;
+  size_t count = 0;
+  for (const std::vector<EdgePoint>& view : points) count += view.size();
+  if (count < kFewestPoints) return std::nullopt;
   Adjustment adjustment(views, points, knowledge);
   if (!adjustment.Start(start)) return std::nullopt;
   if (!adjustment.Minimise(false) || !adjustment.Minimise(true)) return std::nullopt;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "vision/frame/edge_points.h"
@@ -22,23 +22,32 @@ struct ReliefPrior {
   double sigma_m;
 };
 
+/// A plane parallel to the frame's front that was measured without looking at the frame's edges, as
+/// depth does: { p : m·p = 1 }, in L, with m = n/(n·p_LO + relief) for a frame of normal n.
+struct PlaneMeasurement {
+  Eigen::Vector3d m;            ///< [1/m]
+  Eigen::Matrix3d information;  ///< Of m; inverse of its covariance, or of less rank [m²].
+  double relief_m = 0.0;        ///< Of the plane before (+) or behind the frame's front.
+};
+
 /// What is assumed of a frame. Sides without a relief are in its plane.
 struct FrameKnowledge {
   std::optional<SizePrior> size;
   std::optional<ReliefPrior> outer_relief;
   std::optional<ReliefPrior> inner_relief;
+  std::vector<PlaneMeasurement> planes{};
 };
 
 struct FrameAdjustment {
   FrameRectangle frame;
   /// Of FrameRectangle's parameters in their order; rows of those that were not fitted are zero.
   Eigen::Matrix<double, FrameRectangle::kParameters, FrameRectangle::kParameters> covariance;
-  std::array<std::vector<bool>, 2> is_inlier;  ///< By view, for each point.
+  std::vector<std::vector<bool>> is_inlier;  ///< By view, for each point.
   /// Root mean square of the residuals over their standard deviations.
   double scale = 0.0;
 };
 
-/// The frame that fits best to edge points in both views: minimises
+/// The frame that fits best to edge points in all views: minimises
 ///
 ///     Σ ρ(n·(π(X_CL p_LQ) - q) / σ)
 ///
@@ -48,10 +57,13 @@ struct FrameAdjustment {
 /// at 4.685 times the residuals' own scale (1.4826 of their median size, at least 1); then least
 /// squares over those within 3.5 times that scale. Levenberg and Marquardt, iterated reweighting.
 ///
+/// Measured planes add (m(frame) - m)ᵀ Λ (m(frame) - m), Λ their information, times the square of
+/// the residuals' scale: edges that are off by more than their noise count less beside them.
+///
 /// The covariance is (JᵀWJ)⁻¹ times the inliers' mean square where that is above 1: edges of
 /// textured walls are off by more than noise explains. nullopt if the points fix no rectangle.
-std::optional<FrameAdjustment> AdjustFrame(const std::array<CameraView, 2>& views,
-                                           const std::array<std::vector<EdgePoint>, 2>& points,
+std::optional<FrameAdjustment> AdjustFrame(std::span<const CameraView> views,
+                                           const std::vector<std::vector<EdgePoint>>& points,
                                            const FrameRectangle& start,
                                            const FrameKnowledge& knowledge);
 

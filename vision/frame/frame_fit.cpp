@@ -41,13 +41,13 @@ double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
 }
 
 struct PlaceCounts {
-  std::array<std::array<int, 4>, 2> outer = {};  // By view and side.
+  std::vector<std::array<int, 4>> outer;  // By view and side.
   int inner = 0;
 };
 
 void CountSupport(const PlaceCounts& places, FrameFit& fit) {
   double inner = 0.0;
-  for (size_t view = 0; view < 2; ++view) {
+  for (size_t view = 0; view < fit.points.size(); ++view) {
     std::array<double, 4> outer = {};
     for (size_t i = 0; i < fit.points[view].size(); ++i) {
       if (!fit.adjustment.is_inlier[view][i]) continue;
@@ -91,7 +91,7 @@ int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideReq
                          std::vector<EdgePoint>& points) {
   EdgeTuning& tuning =
       tunings_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
-  SideEdges edges = MeasureSide((*views_)[view], frame, request, tuning);
+  SideEdges edges = MeasureSide(views_[view], frame, request, tuning);
   points.insert(points.end(), edges.points.begin(), edges.points.end());
   tuning = edges.tuning;
   return edges.places;
@@ -100,9 +100,11 @@ int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideReq
 std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
                                            const FrameKnowledge& knowledge, double tolerance_px) {
   FrameFit fit;
+  fit.points.resize(views_.size());
   PlaceCounts places;
-  for (size_t view = 0; view < 2; ++view) {
-    const double reach_px = border_ ? std::clamp(0.5 * BorderPixels((*views_)[view], frame),
+  places.outer.resize(views_.size());
+  for (size_t view = 0; view < views_.size(); ++view) {
+    const double reach_px = border_ ? std::clamp(0.5 * BorderPixels(views_[view], frame),
                                                  kLeastReach_px, settings_.reach_px)
                                     : settings_.reach_px;
     SideRequest request{.side = Side::kTop,
@@ -125,7 +127,9 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
   for (std::vector<EdgePoint>& points : fit.points) {
     for (EdgePoint& point : points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
   }
-  auto adjustment = AdjustFrame(*views_, fit.points, frame, knowledge);
+  FrameKnowledge all = knowledge;
+  all.planes = settings_.planes;
+  auto adjustment = AdjustFrame(views_, fit.points, frame, all);
   if (!adjustment) return std::nullopt;
   fit.adjustment = std::move(*adjustment);
   CountSupport(places, fit);
@@ -189,7 +193,7 @@ std::optional<FrameFit> FrameFitter::FitInRelief(const FrameFit& start) {
 
 std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
   FrameFit start = rough;
-  border_ = FindBorder((*views_)[0], start.adjustment.frame, settings_.border);
+  border_ = FindBorder(views_[0], start.adjustment.frame, settings_.border);
   if (border_) start.adjustment.frame.border_m = border_->border_m;
   std::optional<FrameFit> fit = FitInOnePlane(start);
   if (!fit && border_) {

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/detection.h"
 #include "vision/frame/frame_adjustment.h"
@@ -15,11 +17,12 @@ struct FrameFitSettings {
   double min_side_support;  ///< Share of an outer side's places with its edge.
   BorderSearch border;
   std::optional<SizePrior> size;  ///< Used in the last adjustment only.
+  std::vector<PlaneMeasurement> planes{};
 };
 
 struct FrameFit {
   FrameAdjustment adjustment;
-  std::array<std::vector<EdgePoint>, 2> points;
+  std::vector<std::vector<EdgePoint>> points;  ///< By view.
   /// Shares of the places along the sides where the frame's edge was found: by outer side in
   /// the better view, and of all inner sides.
   std::array<double, 4> outer_support = {};
@@ -31,12 +34,12 @@ struct FrameFit {
 };
 
 /// From a rectangle that is right to some pixels to the one that fits best: measures the sides in
-/// both views and adjusts the rectangle to them, in rounds.
+/// all views and adjusts the rectangle to them, in rounds.
 class FrameFitter {
  public:
   /// The views must outlive this.
-  FrameFitter(const std::array<CameraView, 2>& views, const FrameFitSettings& settings)
-      : views_(&views), settings_(settings) {}
+  FrameFitter(std::span<const CameraView> views, const FrameFitSettings& settings)
+      : views_(views), settings_(settings), tunings_(views.size()) {}
 
   /// One round with the outer sides alone. nullopt if they fix no rectangle.
   std::optional<FrameFit> FitRoughly(const FrameRectangle& start);
@@ -66,10 +69,10 @@ class FrameFitter {
   int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
               std::vector<EdgePoint>& points);
 
-  const std::array<CameraView, 2>* views_;
+  std::span<const CameraView> views_;
   FrameFitSettings settings_;
   std::optional<BorderFound> border_;
-  std::array<std::array<std::array<EdgeTuning, 4>, 2>, 2> tunings_;  // View, border, side.
+  std::vector<std::array<std::array<EdgeTuning, 4>, 2>> tunings_;  // View, border, side.
 };
 
 }  // namespace fenestra

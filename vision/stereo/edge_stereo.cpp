@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "vision/frame/frame_pictures.h"
+#include "vision/frame/frame_score.h"
 #include "vision/stereo/stage_pictures.h"
 
 namespace fenestra {
@@ -17,10 +17,6 @@ constexpr double kReach_px = 4.0;
 constexpr int kMostFinished = 4;
 // Candidates that begin with less than this share of the best one's score are not measured.
 constexpr double kHopeless = 0.7;
-// A window whose size differs by this share from what is expected is another one.
-constexpr double kUnexpected = 0.08;
-constexpr double kNotFlat =
-    0.85;  // What a frame's score is worth whose sides are not in one plane.
 
 const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
   Validate(options);
@@ -40,66 +36,6 @@ const StereoObservation& StereoPart(const Observation& observation) {
     throw InputError("observation", "is of an RGB-D sensor; this detector needs a stereo pair");
   }
   return *stereo;
-}
-
-cv::Mat3b DrawSegments(const cv::Mat1b& image, const EdgeSegments& segments,
-                       const std::vector<DarkQuadrilateral>& candidates) {
-  cv::Mat3b picture;
-  cv::cvtColor(image, picture, cv::COLOR_GRAY2BGR);
-  const std::array<cv::Scalar, 4> colours = {
-      cv::Scalar{0, 0, 255}, {0, 255, 255}, {255, 255, 0}, {255, 0, 0}};
-  const auto point = [](const Eigen::Vector2d& p) {
-    return cv::Point(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
-  };
-  for (size_t side = 0; side < 4; ++side) {
-    for (const EdgeSegment& s : segments[side]) {
-      cv::line(picture, point(s.from), point(s.to), colours[side]);
-    }
-  }
-  for (const DarkQuadrilateral& candidate : candidates) {
-    for (size_t i = 0; i < 4; ++i) {
-      cv::line(picture, point(candidate.corners_px[i]), point(candidate.corners_px[(i + 1) % 4]),
-               {255, 0, 255});
-    }
-  }
-  return picture;
-}
-
-// DarkInside of the frame's outer sides, piece by piece, as the lens bends them.
-double Clarity(const CameraView& view, const FrameRectangle& frame,
-               const DarknessSettings& settings) {
-  constexpr int kPieces = 4;
-  double sum = 0.0;
-  for (const Side side : kAllSides) {
-    for (int i = 0; i < kPieces; ++i) {
-      const auto from = view.camera.Project(
-          view.X_CL * frame.PointOn(side, Border::kOuter, i / static_cast<double>(kPieces)));
-      const auto to = view.camera.Project(
-          view.X_CL * frame.PointOn(side, Border::kOuter, (i + 1) / static_cast<double>(kPieces)));
-      if (from && to) sum += DarkOnTheRight(view.image, *from, *to, settings);
-    }
-  }
-  return sum / (4 * kPieces);
-}
-
-// Both images as delivered, side by side; edge points that the frame explains green, others red.
-cv::Mat3b DrawEdgePoints(const std::array<CameraView, 2>& views, const FrameFit& fit) {
-  cv::Mat1b both;
-  cv::hconcat(views[0].image, views[1].image, both);
-  cv::Mat3b picture;
-  cv::cvtColor(both, picture, cv::COLOR_GRAY2BGR);
-  for (size_t view = 0; view < 2; ++view) {
-    for (size_t i = 0; i < fit.points[view].size(); ++i) {
-      const Eigen::Vector2d& p = fit.points[view][i].pixel;
-      const cv::Point place(
-          static_cast<int>(std::lround(p.x())) + static_cast<int>(view) * views[0].image.cols,
-          static_cast<int>(std::lround(p.y())));
-      const cv::Scalar colour =
-          fit.adjustment.is_inlier[view][i] ? cv::Scalar(80, 220, 80) : cv::Scalar(60, 60, 255);
-      cv::circle(picture, place, 1, colour, cv::FILLED);
-    }
-  }
-  return picture;
 }
 
 }  // namespace
@@ -182,11 +118,11 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     FrameFitter fitter(views, fitting_);
     auto rough = fitter.FitRoughly(FrameRectangle::FromCorners(p_LV));
     if (!rough) continue;
-    if (auto objection = ObjectionToSize(rough->adjustment.frame)) {
+    if (auto objection = ObjectionToSize(rough->adjustment.frame, fitting_.size)) {
       last_objection = *objection;
       continue;
     }
-    const double score = Score(views[0], *rough);
+    const double score = FrameScore(views[0], *rough, darkness_);
     candidates.push_back({std::move(fitter), std::move(*rough), score});
   }
   if (candidates.empty()) return last_objection;
@@ -216,7 +152,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     WindowEstimate estimate = fit.adjustment.frame.ToEstimate();
     estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
     // The rough fit cannot hide behind freedoms that it did not have.
-    estimate.score = 0.5 * (candidate.score + Score(views[0], fit));
+    estimate.score = 0.5 * (candidate.score + FrameScore(views[0], fit, darkness_));
     found.push_back(std::move(estimate));
     fits.push_back(fit);
   }
@@ -252,48 +188,14 @@ std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilat
 
 std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
                                                   const FrameRectangle& frame) const {
-  const auto implausible = [](const std::string& detail) {
-    return Miss{"implausible_shape", detail};
-  };
-  const double depth_m = frame.p_LO.z();
-  if (depth_m < limits_.nearest_m || depth_m > limits_.farthest_m) {
-    return implausible(fmt::format("depth {:.2f} m is out of range", depth_m));
-  }
-  const double shorter = std::min(frame.width_m, frame.height_m);
-  const double longer = std::max(frame.width_m, frame.height_m);
-  if (shorter < limits_.min_side_m || longer > limits_.max_side_m ||
-      longer > limits_.max_side_ratio * shorter) {
-    return implausible(fmt::format("{:.2f} x {:.2f} m", frame.width_m, frame.height_m));
-  }
-  const double clarity = Clarity(left, frame, darkness_);
+  if (auto objection = ObjectionToFrame(frame, limits_)) return objection;
+  const double clarity = FrameClarity(left, frame, darkness_);
   if (clarity < options_.min_darkness) {
     return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
                                         "{:.2f}, {:.2f} are needed",
                                         clarity, options_.min_darkness)};
   }
   return std::nullopt;
-}
-
-std::optional<Miss> EdgeStereoDetector::ObjectionToSize(const FrameRectangle& rough) const {
-  if (options_.expected_width_m <= 0.0) return std::nullopt;
-  const double tolerance_m =
-      std::max(kUnexpected * std::min(options_.expected_width_m, options_.expected_height_m),
-               5.0 * options_.expected_size_sigma_m);
-  if (std::abs(rough.width_m - options_.expected_width_m) <= tolerance_m &&
-      std::abs(rough.height_m - options_.expected_height_m) <= tolerance_m) {
-    return std::nullopt;
-  }
-  return Miss{"unexpected_size",
-              fmt::format("{:.2f} x {:.2f} m instead of {:.2f} x {:.2f} m", rough.width_m,
-                          rough.height_m, options_.expected_width_m, options_.expected_height_m)};
-}
-
-double EdgeStereoDetector::Score(const CameraView& left, const FrameFit& fit) const {
-  const FrameRectangle& frame = fit.adjustment.frame;
-  const double seen =
-      0.4 * Clarity(left, frame, darkness_) + 0.4 * fit.MeanSupport() + 0.2 * fit.inner_support;
-  return seen * (fit.is_flat ? 1.0 : kNotFlat) *
-         (1.0 - 0.6 * BrightBand(left, frame, options_.black_dn));
 }
 
 }  // namespace fenestra

@@ -3,6 +3,7 @@
 #include "core/calibration.h"
 #include "core/detector.h"
 #include "vision/frame/frame_fit.h"
+#include "vision/frame/frame_limits.h"
 #include "vision/stereo/edge_stereo_options.h"
 #include "vision/stereo/frame_seed.h"
 #include "vision/stereo/rectification.h"
@@ -47,9 +48,6 @@ class EdgeStereoDetector : public Detector {
   std::optional<Miss> Objection(const CameraView& left, const FrameRectangle& frame) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
-  /// To a rectangle that was fitted without knowing what is expected.
-  std::optional<Miss> ObjectionToSize(const FrameRectangle& rough) const;
-  double Score(const CameraView& left, const FrameFit& fit) const;
 
   EdgeStereoOptions options_;
   StereoCalibration calibration_;

@@ -5,21 +5,11 @@
 
 #include "vision/frame/dark_quadrilateral.h"
 #include "vision/frame/edge_segments.h"
+#include "vision/frame/frame_limits.h"
 #include "vision/frame/frame_rectangle.h"
 #include "vision/stereo/rectified_camera.h"
 
 namespace fenestra {
-
-/// What a frame may be like in space.
-struct FrameLimits {
-  double nearest_m;
-  double farthest_m;
-  double min_side_m;
-  double max_side_m;
-  double max_side_ratio;  ///< Longer over shorter side.
-  double max_skew_rad;    ///< Departure of a corner from a right angle.
-  double max_taper;       ///< Relative difference of opposite sides.
-};
 
 /// A dark quadrilateral in both views that may be a rectangle in space.
 struct FrameSeed {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <opencv2/core.hpp>
+#include <span>
+#include <vector>
+
+#include "vision/frame/dark_quadrilateral.h"
+#include "vision/frame/frame_fit.h"
+
+namespace fenestra {
+
+/// Segments by the side that they may be, and quadrilaterals in magenta.
+cv::Mat3b DrawSegments(const cv::Mat1b& image, const EdgeSegments& segments,
+                       const std::vector<DarkQuadrilateral>& candidates);
+
+/// All views side by side; edge points that the frame explains green, others red.
+cv::Mat3b DrawEdgePoints(std::span<const CameraView> views, const FrameFit& fit);
+
+}  // namespace fenestra

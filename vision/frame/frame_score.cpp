@@ -1,0 +1,35 @@
+#include "vision/frame/frame_score.h"
+
+namespace fenestra {
+namespace {
+
+// What a frame's score is worth whose sides are not in one plane.
+constexpr double kNotFlat = 0.85;
+
+}  // namespace
+
+double FrameClarity(const CameraView& view, const FrameRectangle& frame,
+                    const DarknessSettings& settings) {
+  constexpr int kPieces = 4;
+  double sum = 0.0;
+  for (const Side side : kAllSides) {
+    for (int i = 0; i < kPieces; ++i) {
+      const auto from = view.camera.Project(
+          view.X_CL * frame.PointOn(side, Border::kOuter, i / static_cast<double>(kPieces)));
+      const auto to = view.camera.Project(
+          view.X_CL * frame.PointOn(side, Border::kOuter, (i + 1) / static_cast<double>(kPieces)));
+      if (from && to) sum += DarkOnTheRight(view.image, *from, *to, settings);
+    }
+  }
+  return sum / (4 * kPieces);
+}
+
+double FrameScore(const CameraView& view, const FrameFit& fit, const DarknessSettings& settings) {
+  const FrameRectangle& frame = fit.adjustment.frame;
+  const double seen =
+      0.4 * FrameClarity(view, frame, settings) + 0.4 * fit.MeanSupport() + 0.2 * fit.inner_support;
+  return seen * (fit.is_flat ? 1.0 : kNotFlat) *
+         (1.0 - 0.6 * BrightBand(view, frame, settings.black_dn));
+}
+
+}  // namespace fenestra

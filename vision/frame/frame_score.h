@@ -1,0 +1,16 @@
+#pragma once
+
+#include "vision/frame/darkness.h"
+#include "vision/frame/frame_fit.h"
+
+namespace fenestra {
+
+/// DarkInside of the frame's outer sides, piece by piece, as the lens bends them.
+double FrameClarity(const CameraView& view, const FrameRectangle& frame,
+                    const DarknessSettings& settings);
+
+/// How much speaks for a fitted frame, 0 to 1: its clarity and how much of its sides was found;
+/// less if its sides are not in one plane or if a bright band lies around it (BrightBand).
+double FrameScore(const CameraView& view, const FrameFit& fit, const DarknessSettings& settings);
+
+}  // namespace fenestra
