@@ -36,7 +36,8 @@ struct ReportTitle {
 /// reasons and times, and how to read them.
 std::string SummaryMarkdown(const ReportTitle& title, std::span<const CellSummary> summaries);
 
-/// Compact tables for a terminal of 120 columns, as long as few factors vary.
+/// Compact tables for a terminal of 120 columns, as long as few factors vary; of 136 columns where
+/// errors have bounds.
 std::string SummaryForTerminal(std::span<const CellSummary> summaries);
 
 }  // namespace fenestra

@@ -61,6 +61,7 @@ void AddTrialHeader(const Names& factors, const Names& stages, CsvWriter& csv) {
   csv.AddAll({"part", "sensor", "cell", "trial", "detector"}).AddAll(factors);
   csv.AddAll({"outcome", "reason", "detail"}).AddAll(EstimateColumns());
   csv.AddAll({"truth_x_m", "truth_y_m", "truth_z_m"});
+  csv.AddAll({"bound_x_mm", "bound_y_mm", "bound_z_mm"});
   csv.AddAll(TimeColumns("time_total_ms", stages)).EndLine();
 }
 
@@ -77,6 +78,11 @@ void AddScore(const Score& score, CsvWriter& csv) {
     AddVector(estimate ? std::optional(estimate->p_CV[i]) : std::nullopt, csv);
   }
   AddVector(score.truth_p_CO, csv);
+}
+
+std::optional<Eigen::Vector3d> BoundOf_mm(const TrialRecord& record) {
+  if (!record.bound_C) return std::nullopt;
+  return Eigen::Vector3d(1e3 * record.bound_C->diagonal().cwiseSqrt());
 }
 
 std::optional<double> SecondsOf(const TrialRecord& record, const std::string& name) {
@@ -101,7 +107,8 @@ void AddSummaryHeader(const Names& levels, const Names& stages, CsvWriter& csv) 
               "false_alarm_rate_lower95", "false_alarm_rate_upper95"});
   csv.AddAll({"bias_x_mm", "bias_y_mm", "bias_z_mm", "bias_standard_error_x_mm",
               "bias_standard_error_y_mm", "bias_standard_error_z_mm", "rmse_mm", "rmse_depth_mm",
-              "rmse_across_mm", "p50_error_mm", "p95_error_mm", "reasons", "timed"});
+              "rmse_across_mm", "bound_mm", "bound_depth_mm", "bound_across_mm", "rmse_over_bound",
+              "rmse_depth_over_bound", "p50_error_mm", "p95_error_mm", "reasons", "timed"});
   csv.AddAll(TimeColumns("time_total_median_ms", stages)).EndLine();
 }
 
@@ -126,6 +133,12 @@ void AddHitErrors(const std::optional<HitErrors>& errors, CsvWriter& csv) {
   for (const auto rmse : {&HitErrors::rmse, &HitErrors::rmse_depth, &HitErrors::rmse_across}) {
     csv.Add(ToMilli(errors ? std::optional((*errors).*rmse) : std::nullopt));
   }
+  const bool bounded = errors && errors->bounds;
+  for (const auto bound : {&ErrorBounds::all, &ErrorBounds::depth, &ErrorBounds::across}) {
+    csv.Add(ToMilli(bounded ? std::optional((*errors->bounds).*bound) : std::nullopt));
+  }
+  csv.Add(errors ? errors->OverBound() : std::nullopt);
+  csv.Add(errors ? errors->DepthOverBound() : std::nullopt);
 }
 
 /// "missed/no_contour: 3; crashed/exception: 1".
@@ -152,6 +165,7 @@ std::string TrialsCsv(std::span<const TrialRecord> records) {
     values.insert(values.end(), record.drawn.begin(), record.drawn.end());
     for (const std::string& factor : factors) csv.Add(LevelText(values, factor));
     AddScore(record.score, csv);
+    AddVector(BoundOf_mm(record), csv);
     csv.Add(ToMilli(record.TotalSeconds()));
     for (const std::string& stage : stages) csv.Add(ToMilli(SecondsOf(record, stage)));
     csv.EndLine();

@@ -90,10 +90,15 @@ std::string FalseAlarmTable(const ReportSection& section) {
 std::string ErrorTable(const ReportSection& section) {
   TextTable table;
   AddKeyColumns(section, table);
-  for (const char* heading : {"hits", "bias x", "bias y", "bias z", "RMSE", "RMSE depth",
-                              "RMSE across", "in view", "P50", "P95"}) {
+  for (const char* heading :
+       {"hits", "bias x", "bias y", "bias z", "RMSE", "RMSE depth", "RMSE across"}) {
     table.AddColumn(heading);
   }
+  if (section.has_bounds) {
+    table.AddColumn("RMSE / bound");
+    table.AddColumn("depth / bound");
+  }
+  for (const char* heading : {"in view", "P50", "P95"}) table.AddColumn(heading);
   for (const CellSummary* row : section.rows) {
     if (row->in_view == 0) continue;
     std::vector<std::string> cells = KeyCells(section, *row);
@@ -110,6 +115,10 @@ std::string ErrorTable(const ReportSection& section) {
     }
     for (const auto rmse : {&HitErrors::rmse, &HitErrors::rmse_depth, &HitErrors::rmse_across}) {
       cells.push_back(Millimetres(errors ? std::optional((*errors).*rmse) : std::nullopt));
+    }
+    if (section.has_bounds) {
+      cells.push_back(Significant(errors ? errors->OverBound() : std::nullopt));
+      cells.push_back(Significant(errors ? errors->DepthOverBound() : std::nullopt));
     }
     cells.push_back(std::to_string(row->in_view));
     cells.push_back(Millimetres(row->p50_error_m));
@@ -196,7 +205,9 @@ rates are Clopper–Pearson's.
 
 *bias* is the mean over the hits of estimate minus truth, ± its standard error, in the frame of the
 scored camera: x to the right, y down, z in depth. *RMSE* is over the hits, too: √(mean of
-x² + y² + z²), *depth* √(mean of z²), *across* √(mean of x² + y²). *P50* and *P95* are quantiles of
+x² + y² + z²), *depth* √(mean of z²), *across* √(mean of x² + y²). */ bound* is the RMSE as a multiple
+of Cramér and Rao's bound for the same hits, each where it stands: what an unbiased estimate that
+knows what the detector knows could reach (docs/theory.md). *P50* and *P95* are quantiles of
 the three-dimensional error over all attempts, where one without an estimate counts as infinite:
 `inf` in P95 says that more than 5 % of the attempts gave no estimate, however small the RMSE of the
 others. — stands where there is no such figure.

@@ -22,6 +22,7 @@ struct ReportSection {
   std::vector<std::string> varying;
   bool has_attempts = false;      ///< Some trial has a target, in view or not.
   bool has_empty_scenes = false;  ///< Some trial has no target.
+  bool has_bounds = false;        ///< Some row's errors have a bound.
 };
 
 /// In the order in which part and sensor first occur.

@@ -20,9 +20,14 @@ TextTable TableOf(const ReportSection& section) {
   }
   table.AddColumn("crash");
   if (section.has_attempts) {
-    for (const char* heading : {"out", "bias x", "bias y", "bias z", "RMSE xy", "RMSE z", "P95"}) {
+    for (const char* heading : {"out", "bias x", "bias y", "bias z", "RMSE xy", "RMSE z"}) {
       table.AddColumn(heading);
     }
+    if (section.has_bounds) {
+      table.AddColumn("z/b");
+      table.AddColumn("3D/b");
+    }
+    table.AddColumn("P95");
   }
   table.AddColumn("time");
   return table;
@@ -55,6 +60,10 @@ std::vector<std::string> Row(const ReportSection& section, const CellSummary& ro
     }
     add_mm(errors ? std::optional(errors->rmse_across) : std::nullopt);
     add_mm(errors ? std::optional(errors->rmse_depth) : std::nullopt);
+    if (section.has_bounds) {
+      cells.push_back(Significant(errors ? errors->DepthOverBound() : std::nullopt));
+      cells.push_back(Significant(errors ? errors->OverBound() : std::nullopt));
+    }
     add_mm(row.p95_error_m);
   }
   cells.push_back(Significant(ToMilli(row.median_total_s)));
@@ -93,6 +102,9 @@ constexpr char kAttemptLegend[] =
     "bias\n"
     "and RMSE over the hits, P95 of the 3-D error over all n, an attempt without estimate as "
     "inf.\n";
+constexpr char kBoundLegend[] =
+    "z/b, 3D/b: RMSE of z and of all three over Cramér and Rao's bound for the same hits "
+    "(docs/theory.md).\n";
 constexpr char kEmptySceneLegend[] =
     "empty: scenes without a window = alarms (a window reported) + clear + crash(ed) there.\n";
 constexpr char kTimeLegend[] =
@@ -106,6 +118,7 @@ std::string SummaryForTerminal(std::span<const CellSummary> summaries) {
   std::string text;
   bool attempts = false;
   bool empty_scenes = false;
+  bool bounds = false;
   for (const ReportSection& section : MakeSections(summaries)) {
     TextTable table = TableOf(section);
     for (const CellSummary* row : section.rows) table.AddRow(Row(section, *row));
@@ -114,9 +127,11 @@ std::string SummaryForTerminal(std::span<const CellSummary> summaries) {
     text += "\n";
     attempts |= section.has_attempts;
     empty_scenes |= section.has_empty_scenes;
+    bounds |= section.has_bounds;
   }
   if (text.empty()) return "no trials\n";
   if (attempts) text += kAttemptLegend;
+  if (bounds) text += kBoundLegend;
   if (empty_scenes) text += kEmptySceneLegend;
   return text + kTimeLegend;
 }

@@ -14,8 +14,8 @@ constexpr char kColumns[] =
     "estimate_x_m, estimate_y_m, estimate_z_m, "
     "estimate_normal_x, estimate_normal_y, estimate_normal_z, "
     "estimate_corners_m, estimate_covariance_m2, "
-    "truth_x_m, truth_y_m, truth_z_m, stage_times_s";
-constexpr int kColumnCount = 22;
+    "truth_x_m, truth_y_m, truth_z_m, bound_covariance_m2, stage_times_s";
+constexpr int kColumnCount = 23;
 constexpr char kErrorColumns[] =
     "centroid_error_x_mm, centroid_error_y_mm, centroid_error_z_mm, centroid_error_mm";
 constexpr int kErrorColumnCount = 4;
@@ -38,6 +38,19 @@ std::optional<Eigen::Vector3d> ReadVector(SqliteStatement& select) {
   return Eigen::Vector3d(*x, *y, *z);
 }
 
+void BindMatrix(SqliteStatement& insert, const std::optional<Eigen::Matrix3d>& matrix) {
+  if (matrix) {
+    insert.Bind(MatrixToJson(*matrix));
+  } else {
+    insert.BindNull();
+  }
+}
+
+std::optional<Eigen::Matrix3d> ReadMatrix(SqliteStatement& select) {
+  const auto text = select.ReadOptionalText();
+  return text ? std::optional(MatrixFromJson(*text)) : std::nullopt;
+}
+
 void BindEstimate(SqliteStatement& insert, const std::optional<WindowEstimate>& estimate) {
   if (!estimate) {
     for (int column = 0; column < 8; ++column) insert.BindNull();
@@ -46,24 +59,20 @@ void BindEstimate(SqliteStatement& insert, const std::optional<WindowEstimate>& 
   BindVector(insert, estimate->p_CO);
   BindVector(insert, estimate->normal_C);
   insert.Bind(CornersToJson(estimate->p_CV));
-  if (estimate->covariance_C) {
-    insert.Bind(MatrixToJson(*estimate->covariance_C));
-  } else {
-    insert.BindNull();
-  }
+  BindMatrix(insert, estimate->covariance_C);
 }
 
 std::optional<WindowEstimate> ReadEstimate(SqliteStatement& select) {
   const auto p_CO = ReadVector(select);
   const auto normal_C = ReadVector(select);
   const auto corners = select.ReadOptionalText();
-  const auto covariance = select.ReadOptionalText();
+  const auto covariance_C = ReadMatrix(select);
   if (!p_CO || !normal_C || !corners) return std::nullopt;
   WindowEstimate estimate;
   estimate.p_CO = *p_CO;
   estimate.p_CV = CornersFromJson(*corners);
   estimate.normal_C = *normal_C;
-  if (covariance) estimate.covariance_C = MatrixFromJson(*covariance);
+  estimate.covariance_C = covariance_C;
   return estimate;
 }
 
@@ -92,6 +101,7 @@ void InsertRow(SqliteStatement& insert, const TrialRecord& record) {
   insert.Bind(ToString(score.outcome)).Bind(score.reason).Bind(score.detail);
   BindEstimate(insert, score.estimate);
   BindVector(insert, score.truth_p_CO);
+  BindMatrix(insert, record.bound_C);
   insert.Bind(StageTimesToJson(record.stages));
   if (const auto error = score.CentroidError_C()) {
     BindVector(insert, Eigen::Vector3d(1e3 * *error));
@@ -124,6 +134,7 @@ TrialRecord ReadRow(SqliteStatement& select) {
   record.score.detail = select.ReadText();
   record.score.estimate = ReadEstimate(select);
   record.score.truth_p_CO = ReadVector(select);
+  record.bound_C = ReadMatrix(select);
   record.stages = StageTimesFromJson(select.ReadText());
   return record;
 }

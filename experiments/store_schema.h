@@ -7,7 +7,7 @@ namespace fenestra {
 /// Bytes 68–71 of the file, big-endian: "Fene". Tells Fenestra's files from other SQLite files.
 inline constexpr uint32_t kStoreApplicationId = 0x46656e65;
 /// Bytes 60–63 of the file. Counts up with every change to the tables.
-inline constexpr uint32_t kStoreSchemaVersion = 1;
+inline constexpr uint32_t kStoreSchemaVersion = 2;
 
 /// Numbers of estimate and truth are declared ANY: a REAL column would keep a whole number as an
 /// integer and so lose the sign of -0.0. The columns centroid_error_* repeat estimate minus truth
@@ -46,6 +46,7 @@ CREATE TABLE trials (
   truth_x_m           ANY,            -- NULL in a scene without a target
   truth_y_m           ANY,
   truth_z_m           ANY,
+  bound_covariance_m2 TEXT,           -- JSON 3 x 3, Cramér-Rao bound of the centroid
   stage_times_s       TEXT NOT NULL,  -- JSON {"rectify": 0.012, ...}
   PRIMARY KEY (cell, trial, detector)
 ) STRICT, WITHOUT ROWID;

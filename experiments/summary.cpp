@@ -29,6 +29,21 @@ std::vector<const TrialRecord*> SortedByKey(std::span<const TrialRecord> records
   return rows;
 }
 
+std::optional<ErrorBounds> BoundsOfHits(Rows rows) {
+  Eigen::Vector3d variances = Eigen::Vector3d::Zero();
+  int hits = 0;
+  for (const TrialRecord* row : rows) {
+    if (row->score.outcome != Outcome::kHit) continue;
+    if (!row->bound_C) return std::nullopt;
+    variances += row->bound_C->diagonal();
+    ++hits;
+  }
+  variances /= hits;
+  return ErrorBounds{.all = std::sqrt(variances.sum()),
+                     .depth = std::sqrt(variances.z()),
+                     .across = std::sqrt(variances.head<2>().sum())};
+}
+
 std::optional<HitErrors> ErrorsOfHits(Rows rows) {
   std::array<std::vector<double>, 3> errors;
   std::vector<double> across;
@@ -53,6 +68,7 @@ std::optional<HitErrors> ErrorsOfHits(Rows rows) {
   result.rmse = RootMeanSquare(all);
   result.rmse_depth = RootMeanSquare(z);
   result.rmse_across = RootMeanSquare(across);
+  result.bounds = BoundsOfHits(rows);
   return result;
 }
 
@@ -139,6 +155,14 @@ CellSummary SummariseCell(Rows rows) {
 }
 
 }  // namespace
+
+std::optional<double> HitErrors::OverBound() const {
+  return bounds ? std::optional(rmse / bounds->all) : std::nullopt;
+}
+
+std::optional<double> HitErrors::DepthOverBound() const {
+  return bounds ? std::optional(rmse_depth / bounds->depth) : std::nullopt;
+}
 
 Proportion MakeProportion(int count, int of) {
   return {.count = count, .of = of, .interval95 = ClopperPearson(count, of, 0.95)};

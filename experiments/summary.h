@@ -34,6 +34,14 @@ struct Proportion {
 
 Proportion MakeProportion(int count, int of);
 
+/// What the errors of unbiased estimates would be at least, by Cramér and Rao: √ of the mean over
+/// trials of the bound's trace, and of its parts. Metres.
+struct ErrorBounds {
+  double all = 0.0;
+  double depth = 0.0;
+  double across = 0.0;
+};
+
 /// Centroid errors over the hits of a cell. Frame C; metres.
 struct HitErrors {
   Eigen::Vector3d bias;                                ///< Mean of estimate minus truth.
@@ -41,6 +49,12 @@ struct HitErrors {
   double rmse = 0.0;                                   ///< √(mean of x² + y² + z²)
   double rmse_depth = 0.0;                             ///< √(mean of z²)
   double rmse_across = 0.0;                            ///< √(mean of x² + y²)
+  /// Over the same hits; nullopt unless all of them have a bound.
+  std::optional<ErrorBounds> bounds;
+
+  /// rmse and rmse_depth as multiples of their bounds.
+  std::optional<double> OverBound() const;
+  std::optional<double> DepthOverBound() const;
 };
 
 /// How often trials with this outcome gave this reason (see Score::reason).

@@ -64,6 +64,9 @@ struct TrialRecord {
   FactorValues levels;   ///< The same in every trial of the cell.
   FactorValues drawn;    ///< Drawn anew in every trial.
   Score score;
+  /// Cramér and Rao's bound on the covariance of an unbiased estimate of p_CO that knows what this
+  /// detector knows [m²]; see docs/theory.md. Absent where there is none.
+  std::optional<Eigen::Matrix3d> bound_C{};
   std::vector<StageTime> stages;
 
   /// Sum of the stage times; nullopt without any.

@@ -159,12 +159,34 @@ TEST(SummaryCsv, HasEveryFigureWithItsDenominator) {
   EXPECT_EQ(table[6].at("false_alarm_rate"), "0.125");
 }
 
+TEST(Reports, ShowErrorsAsMultiplesOfTheirBound) {
+  std::vector<TrialRecord> rows = ExampleRows();
+  EXPECT_THAT(SummaryMarkdown({.study = "paper"}, Summarise(rows)), Not(HasSubstr("RMSE / bound")));
+  EXPECT_EQ(ParseTable(SummaryCsv(Summarise(rows)))[0].at("rmse_over_bound"), "");
+  for (TrialRecord& row : rows) row.bound_C = 1e-4 / 16.0 * Eigen::Matrix3d::Identity();
+  const auto summaries = Summarise(rows);
+  const HitErrors& errors = summaries[0].hit_errors.value();
+  const auto summary = ParseTable(SummaryCsv(summaries));
+  EXPECT_EQ(ToNumber(summary[0].at("bound_depth_mm")), 2.5);
+  EXPECT_EQ(ToNumber(summary[0].at("rmse_depth_over_bound")), errors.rmse_depth / 0.0025);
+  EXPECT_EQ(ToNumber(summary[0].at("rmse_over_bound")), *errors.OverBound());
+  EXPECT_EQ(ToNumber(ParseTable(TrialsCsv(rows))[1].at("bound_z_mm")), 2.5);
+  const std::string markdown = SummaryMarkdown({.study = "paper"}, summaries);
+  EXPECT_THAT(markdown, HasSubstr("RMSE / bound"));
+  EXPECT_THAT(markdown, HasSubstr(Significant(errors.DepthOverBound())));
+  EXPECT_THAT(SummaryForTerminal(summaries), HasSubstr("3D/b"));
+}
+
 TEST(SummaryForTerminal, FitsAndShowsEveryRow) {
-  const std::vector<TrialRecord> rows = ExampleRows();
+  std::vector<TrialRecord> rows = ExampleRows();
+  for (const std::string& line : Lines(SummaryForTerminal(Summarise(rows)))) {
+    EXPECT_LE(DisplayWidth(line), 120u) << line;
+  }
+  for (TrialRecord& row : rows) row.bound_C = 1e-4 * Eigen::Matrix3d::Identity();
   const std::string text = SummaryForTerminal(Summarise(rows));
   std::map<std::string, int> seen;
   for (const std::string& line : Lines(text)) {
-    EXPECT_LE(DisplayWidth(line), 120u) << line;
+    EXPECT_LE(DisplayWidth(line), 136u) << line;
     EXPECT_FALSE(line.ends_with(' ')) << line;
     for (const char* detector : {"paper-stereo  ", "other  "}) {
       if (line.find(detector) != std::string::npos) ++seen[detector];

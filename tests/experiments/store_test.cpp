@@ -104,6 +104,10 @@ void ExpectSameBits(const TrialRecord& a, const TrialRecord& b) {
   ExpectSameBits(a.levels, b.levels);
   ExpectSameBits(a.drawn, b.drawn);
   ExpectSameBits(a.score, b.score);
+  ASSERT_EQ(a.bound_C.has_value(), b.bound_C.has_value());
+  if (a.bound_C) {
+    EXPECT_EQ(Bits(*a.bound_C), Bits(*b.bound_C));
+  }
   ASSERT_EQ(a.stages.size(), b.stages.size());
   for (size_t i = 0; i < a.stages.size(); ++i) {
     EXPECT_EQ(a.stages[i].stage, b.stages[i].stage);
@@ -130,6 +134,7 @@ TrialRecord DifficultRow(int trial) {
   row.score.estimate->p_CO = {-0.0, 1.0 / 3.0, std::nextafter(2.0, 3.0)};
   row.score.estimate->covariance_C->setConstant(-0.0);
   row.score.truth_p_CO = Eigen::Vector3d(5e-324, -0.0, 2.0);
+  row.bound_C = 1e-300 / 3.0 * Eigen::Matrix3d::Identity();
   row.stages = {{"zeta", 1e-9}, {"Kante finden", 0.0}, {"alpha", 1.0 / 3.0}};
   return row;
 }
@@ -147,7 +152,7 @@ TEST_F(Store, RowsComeBackToTheLastBit) {
   ASSERT_EQ(read.size(), rows.size());
   for (size_t i = 0; i < rows.size(); ++i) ExpectSameBits(read[i], rows[i]);
   EXPECT_EQ(store.Metadata().at("study"), "a: 'b'\n");
-  EXPECT_EQ(store.Metadata().at("schema_version"), "1");
+  EXPECT_EQ(store.Metadata().at("schema_version"), "2");
 }
 
 TEST_F(Store, RowsAreOrderedByCellTrialAndDetector) {
@@ -333,9 +338,9 @@ TEST_F(Store, DamagedStoresAreRefusedAndUntouched) {
     ExpectRefused(file_, "results.sqlite");
   }
   std::string newer = sound;
-  newer[63] = 2;
+  newer[63] = 99;
   WriteBytes(file_, newer);
-  ExpectRefused(file_, "schema version 2");
+  ExpectRefused(file_, "schema version 99");
 }
 
 TEST_F(Store, ARunThatCannotStartLeavesNothing) {

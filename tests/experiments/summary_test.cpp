@@ -70,6 +70,33 @@ TEST(Summary, DepthAndAcrossMakeUpTheWhole) {
               1e-17);
 }
 
+TEST(Summary, BoundsAreOverTheHitsThatTheErrorsAreOver) {
+  std::vector<TrialRecord> rows = MixedCell();
+  const Eigen::Vector3d variances(0.01, 0.02, 0.06);
+  double scale = 1.0;
+  for (TrialRecord& row : rows) {
+    // Of those that are not hits, nothing must come through.
+    const bool hit = row.score.outcome == Outcome::kHit;
+    row.bound_C = Eigen::Matrix3d(variances.asDiagonal()) * (hit ? scale : 1e6);
+    if (hit) scale += 2.0;  // 1 and 3: 2 in the mean.
+  }
+  const HitErrors errors = Summarise(rows).at(0).hit_errors.value();
+  ASSERT_TRUE(errors.bounds.has_value());
+  EXPECT_NEAR(errors.bounds->all, std::sqrt(0.18), 1e-14);
+  EXPECT_NEAR(errors.bounds->depth, std::sqrt(0.12), 1e-14);
+  EXPECT_NEAR(errors.bounds->across, std::sqrt(0.06), 1e-14);
+  EXPECT_NEAR(*errors.OverBound(), errors.rmse / std::sqrt(0.18), 1e-13);
+  EXPECT_NEAR(*errors.DepthOverBound(), errors.rmse_depth / std::sqrt(0.12), 1e-13);
+  // One hit without a bound: the two are no longer over the same trials.
+  for (TrialRecord& row : rows) {
+    if (row.score.outcome == Outcome::kHit) row.bound_C.reset();
+    if (!row.bound_C) break;
+  }
+  const HitErrors unbounded = Summarise(rows).at(0).hit_errors.value();
+  EXPECT_FALSE(unbounded.bounds.has_value());
+  EXPECT_FALSE(unbounded.OverBound().has_value());
+}
+
 TEST(Summary, QuantilesAreOverAllAttemptsWithInfinityForThoseWithoutEstimate) {
   // The six attempts: 0.13, 0.081, 0.5, 3, inf, inf. The third smallest is the median.
   const std::vector<TrialRecord> rows = MixedCell();
