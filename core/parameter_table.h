@@ -127,6 +127,23 @@ class ParameterTable {
         });
   }
 
+  /// All parameters of a part of the settings, under the same names.
+  template <typename Part>
+  ParameterTable& Adopt(const ParameterTable<Part>& parts,
+                        const std::function<Part&(Settings&)>& part) {
+    for (const ParameterInfo& info : parts.infos()) {
+      Add(
+          info,
+          [parts, part, name = info.name](const Settings& s) {
+            return parts.Get(part(const_cast<Settings&>(s)), name);
+          },
+          [parts, part, name = info.name](Settings& s, const ParameterValue& value) {
+            parts.Set(part(s), name, value);
+          });
+    }
+    return *this;
+  }
+
   /// In the order in which they were added.
   const std::vector<ParameterInfo>& infos() const { return infos_; }
 

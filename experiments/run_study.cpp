@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/atomic_file.h"
+#include "experiments/prior_text.h"
 #include "experiments/report.h"
 #include "experiments/run_trials.h"
 #include "experiments/store.h"
@@ -27,13 +28,15 @@ std::filesystem::path PictureFolder(const StudyRun& run, const Cell& cell) {
 
 void WriteReports(const StudyRun& run, const std::vector<TrialRecord>& records,
                   const std::vector<CellSummary>& summaries) {
-  const ReportTitle title{.study = run.study.name,
-                          .description = run.study.description,
-                          .provenance = {{"Fenestra", Version()},
-                                         {"Seed", std::to_string(run.study.seed)},
-                                         {"Libraries", LibraryVersions()},
-                                         {"Processor", Processor()},
-                                         {"Jobs", std::to_string(run.jobs)}}};
+  ReportTitle title{.study = run.study.name,
+                    .description = run.study.description,
+                    .provenance = {{"Fenestra", Version()},
+                                   {"Seed", std::to_string(run.study.seed)},
+                                   {"Libraries", LibraryVersions()},
+                                   {"Processor", Processor()},
+                                   {"Jobs", std::to_string(run.jobs)}}};
+  const auto priors = PriorEntries(run.study);
+  title.provenance.insert(title.provenance.end(), priors.begin(), priors.end());
   WriteFileAtomically(run.out / "trials.csv", TrialsCsv(records));
   WriteFileAtomically(run.out / "summary.csv", SummaryCsv(summaries));
   WriteFileAtomically(run.out / "summary.md", SummaryMarkdown(title, summaries));

@@ -8,6 +8,7 @@
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/progress.h"
+#include "experiments/prior_text.h"
 #include "experiments/report.h"
 #include "experiments/run_study.h"
 #include "experiments/study_catalogue.h"
@@ -48,8 +49,9 @@ void Run(const RunArguments& arguments) {
     run.on_trial = [&progress] { progress.Advance(); };
     summaries = RunStudy(run);
   }
-  fmt::print("{}\nTables, rows and pictures are in {}\n", SummaryForTerminal(summaries),
-             run.out.string());
+  fmt::print("{}", SummaryForTerminal(summaries));
+  for (const auto& [what, prior] : PriorEntries(run.study)) fmt::print("{}: {}\n", what, prior);
+  fmt::print("\nTables, rows and pictures are in {}\n", run.out.string());
 }
 
 }  // namespace

@@ -65,6 +65,21 @@ double DarkOnTheRight(const cv::Mat1b& image, const Vector2d& from, const Vector
   return sum / kPlaces;
 }
 
+double DarkOverBright(const cv::Mat1b& image, const std::vector<Vector2d>& outline,
+                      const DarknessSettings& settings) {
+  std::vector<double> ratios;
+  for (size_t i = 0; i < outline.size(); ++i) {
+    AlongLine(image, outline[i], outline[(i + 1) % outline.size()], settings,
+              [&](const GreyPair& greys) {
+                ratios.push_back(std::max(0.0, greys.dark) / std::max(1.0, greys.bright));
+              });
+  }
+  if (ratios.empty()) return 1.0;
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
+}
+
 bool IsDarkThroughout(const cv::Mat1b& image, const Quadrilateral& corners_px,
                       const DarknessSettings& settings) {
   std::vector<double> dark;

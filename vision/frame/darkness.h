@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "vision/frame/quadrilateral.h"
 
@@ -22,6 +23,11 @@ double DarkOnTheRight(const cv::Mat1b& image, const Eigen::Vector2d& from,
 /// Mean of that over the sides of a quadrilateral: how clearly it is darker than what surrounds it.
 double DarkInside(const cv::Mat1b& image, const Quadrilateral& corners_px,
                   const DarknessSettings& settings);
+
+/// Grey value within an outline over that outside of it, above the black level: the median over
+/// places along the outline's sides, from 0. 1 where nothing of it is in the image.
+double DarkOverBright(const cv::Mat1b& image, const std::vector<Eigen::Vector2d>& outline,
+                      const DarknessSettings& settings);
 
 /// Whether one grey value parts what is within its sides from what is outside of them, all around:
 /// a frame is of one paint. What four unrelated edges enclose is not, as a rule. An eighth of the

@@ -44,4 +44,15 @@ std::optional<Miss> ObjectionToSize(const FrameRectangle& frame,
                           frame.height_m, expected->width_m, expected->height_m)};
 }
 
+std::optional<Miss> ObjectionToPrior(const FrameRectangle& frame, const WindowPrior& prior) {
+  return ObjectionOf(prior, frame.ToEstimate(), kUnexpected);
+}
+
+std::optional<SizePrior> SizePriorOf(const WindowPrior& prior) {
+  if (!prior.knows_size()) return std::nullopt;
+  return SizePrior{.width_m = prior.expected_width_m,
+                   .height_m = prior.expected_height_m,
+                   .sigma_m = prior.expected_size_sigma_m};
+}
+
 }  // namespace fenestra

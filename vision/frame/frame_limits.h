@@ -5,6 +5,7 @@
 #include "core/detection.h"
 #include "vision/frame/frame_adjustment.h"
 #include "vision/frame/frame_rectangle.h"
+#include "vision/window_prior.h"
 
 namespace fenestra {
 
@@ -27,5 +28,12 @@ std::optional<Miss> ObjectionToFrame(const FrameRectangle& frame, const FrameLim
 /// by more than 8 % of the shorter expected side and five standard deviations: another window.
 std::optional<Miss> ObjectionToSize(const FrameRectangle& frame,
                                     const std::optional<SizePrior>& expected);
+
+/// An objection of the prior (ObjectionOf) to a rectangle that was fitted without it; sides may be
+/// off by 8 % of the shorter one.
+std::optional<Miss> ObjectionToPrior(const FrameRectangle& frame, const WindowPrior& prior);
+
+/// What of a prior goes into the fit.
+std::optional<SizePrior> SizePriorOf(const WindowPrior& prior);
 
 }  // namespace fenestra

@@ -24,6 +24,20 @@ double FrameClarity(const CameraView& view, const FrameRectangle& frame,
   return sum / (4 * kPieces);
 }
 
+double FrameGreyRatio(const CameraView& view, const FrameRectangle& frame,
+                      const DarknessSettings& settings) {
+  constexpr int kPieces = 4;
+  std::vector<Eigen::Vector2d> outline;
+  for (const Side side : kAllSides) {
+    for (int i = 0; i < kPieces; ++i) {
+      const auto pixel = view.camera.Project(
+          view.X_CL * frame.PointOn(side, Border::kOuter, i / static_cast<double>(kPieces)));
+      if (pixel) outline.push_back(*pixel);
+    }
+  }
+  return DarkOverBright(view.image, outline, settings);
+}
+
 double FrameScore(const CameraView& view, const FrameFit& fit, const DarknessSettings& settings) {
   const FrameRectangle& frame = fit.adjustment.frame;
   const double seen =

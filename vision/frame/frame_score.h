@@ -9,6 +9,10 @@ namespace fenestra {
 double FrameClarity(const CameraView& view, const FrameRectangle& frame,
                     const DarknessSettings& settings);
 
+/// The frame's grey value over its wall's, DarkOverBright along the outer sides.
+double FrameGreyRatio(const CameraView& view, const FrameRectangle& frame,
+                      const DarknessSettings& settings);
+
 /// How much speaks for a fitted frame, 0 to 1: its clarity and how much of its sides was found;
 /// less if its sides are not in one plane or if a bright band lies around it (BrightBand).
 double FrameScore(const CameraView& view, const FrameFit& fit, const DarknessSettings& settings);

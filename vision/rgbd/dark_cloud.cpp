@@ -5,9 +5,8 @@
 #include "core/check.h"
 
 namespace fenestra {
-namespace {
 
-DarkCloud BackProject(const cv::Mat1b& mask, const cv::Mat1f& depth_m, const CameraModel& camera) {
+DarkCloud CloudOf(const cv::Mat1b& mask, const cv::Mat1f& depth_m, const CameraModel& camera) {
   DarkCloud cloud{.mask = mask,
                   .depth_m = cv::Mat1f::zeros(mask.size()),
                   .points_K = {},
@@ -24,15 +23,13 @@ DarkCloud BackProject(const cv::Mat1b& mask, const cv::Mat1f& depth_m, const Cam
   return cloud;
 }
 
-}  // namespace
-
 DarkCloud SegmentDark(const RegisteredImages& images, const CameraModel& camera,
                       int dark_below_dn) {
   FENESTRA_CHECK(images.color.size() == images.depth_m.size(), "images are not registered");
   cv::Mat1b mask;
   const double brightest_dark = dark_below_dn - 1.0;  // inRange includes its upper limit.
   cv::inRange(images.color, cv::Scalar::all(0.0), cv::Scalar::all(brightest_dark), mask);
-  return BackProject(mask, images.depth_m, camera);
+  return CloudOf(mask, images.depth_m, camera);
 }
 
 DarkCloud LargestComponent(const DarkCloud& cloud, const CameraModel& camera) {
@@ -49,7 +46,7 @@ DarkCloud LargestComponent(const DarkCloud& cloud, const CameraModel& camera) {
   }
   if (largest == 0) return cloud;
   const cv::Mat1b mask = labels == largest;
-  return BackProject(mask, cloud.depth_m, camera);
+  return CloudOf(mask, cloud.depth_m, camera);
 }
 
 }  // namespace fenestra

@@ -26,6 +26,10 @@ struct DarkCloud {
 /// of its last step are to be in the camera's frame; dark pixels without depth are left out.
 DarkCloud SegmentDark(const RegisteredImages& images, const CameraModel& camera, int dark_below_dn);
 
+/// The same for pixels that are chosen otherwise, such as by a colour that the frame is known to
+/// have: those whose `mask` is not 0.
+DarkCloud CloudOf(const cv::Mat1b& mask, const cv::Mat1f& depth_m, const CameraModel& camera);
+
 /// The cloud's largest part that is connected (8 neighbours) in the image, and only its mask. Not
 /// in the paper, whose target is the only dark thing in view.
 DarkCloud LargestComponent(const DarkCloud& cloud, const CameraModel& camera);

@@ -36,6 +36,9 @@ RgbdCalibration Checked(const RgbdCalibration& calibration) {
   return calibration;
 }
 
+// Key points lie up to this share of a side inside of its ends.
+constexpr double kSideShare = 0.25;
+
 FourVertices VerticesOf(const std::vector<KeyPoint>& key_points, const std::array<int, 4>& chosen) {
   FourVertices p_KV;
   for (size_t i = 0; i < 4; ++i) p_KV[i] = key_points[static_cast<size_t>(chosen[i])].p_KQ;
@@ -53,7 +56,9 @@ std::vector<Eigen::Vector3f> CloudInDepthFrame(const DarkCloud& cloud, const Pos
 std::optional<Miss> CloudFault(const DarkCloud& cloud, const PaperRgbdOptions& options) {
   if (cloud.dark_pixels == 0) {
     return Miss{"no_dark_pixels",
-                fmt::format("no pixel is below {} in all channels", options.dark_below_dn)};
+                options.prior.knows_color()
+                    ? "no pixel has the expected colour"
+                    : fmt::format("no pixel is below {} in all channels", options.dark_below_dn)};
   }
   const std::string counts = fmt::format("{} dark pixels, {} of them with depth", cloud.dark_pixels,
                                          cloud.points_K.size());
@@ -118,7 +123,10 @@ Detection PaperRgbdDetector::Detect(const Observation& observation, StageLog& lo
 
 DarkCloud PaperRgbdDetector::Segment(const RegisteredImages& registered) const {
   const CameraModel& camera = registration_.working_camera();
-  const DarkCloud cloud = SegmentDark(registered, camera, options_.dark_below_dn);
+  const DarkCloud cloud =
+      options_.prior.knows_color()
+          ? CloudOf(ExpectedColor(options_.prior, registered.color), registered.depth_m, camera)
+          : SegmentDark(registered, camera, options_.dark_below_dn);
   return options_.cloud == "all" ? cloud : LargestComponent(cloud, camera);
 }
 
@@ -157,10 +165,11 @@ Detection PaperRgbdDetector::Estimate(const FourVertices& p_KV, const Plane& pla
   const Pose X_DK = calibration_.X_KD.inverse();
   FourVertices p_DV;
   for (size_t i = 0; i < 4; ++i) p_DV[i] = X_DK * p_KV[i];
-  return WindowEstimate{.p_CO = X_DK * crossing->p_CO,
-                        .p_CV = OrderedAsSeen(p_DV),
-                        .normal_C = X_DK.rotation() * plane.normal_K,
-                        .covariance_C = std::nullopt};
+  const WindowEstimate estimate{.p_CO = X_DK * crossing->p_CO,
+                                .p_CV = OrderedAsSeen(p_DV),
+                                .normal_C = X_DK.rotation() * plane.normal_K};
+  if (auto objection = ObjectionOf(options_.prior, estimate, kSideShare)) return *objection;
+  return estimate;
 }
 
 }  // namespace fenestra

@@ -49,7 +49,9 @@ Table MakeTable() {
           {0.0, 1.0}, "smallest area of the four points over that of the cloud's hull")
       .Number(
           "min_side_ratio", [](Options& o) -> double& { return o.min_side_ratio; }, {0.0, 1.0},
-          "smallest ratio of the shortest to the longest side");
+          "smallest ratio of the shortest to the longest side")
+      .Adopt<WindowPrior>(PriorParameters(SensorKind::kRgbd),
+                          [](Options& o) -> WindowPrior& { return o.prior; });
   return table;
 }
 
@@ -66,6 +68,9 @@ void Validate(const PaperRgbdOptions& options) {
   for (const ParameterInfo& info : table.infos()) {
     const auto objection = info.Objection(table.Get(options, info.name));
     if (objection) faults.push_back({"paper-rgbd", 0, 0, *objection});
+  }
+  for (const std::string& fault : FaultsOf(options.prior)) {
+    faults.push_back({"paper-rgbd", 0, 0, fault});
   }
   if (!faults.empty()) throw InputError(std::move(faults));
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/parameter_table.h"
+#include "vision/window_prior.h"
 
 namespace fenestra {
 
@@ -53,6 +54,10 @@ struct PaperRgbdOptions {
   double min_area_fraction = 0.5;
   /// Shortest over longest side: windows are not slits.
   double min_side_ratio = 0.25;
+
+  /// What is known beforehand; nothing by default. A known colour of the frame takes the place of
+  /// dark_below_dn.
+  WindowPrior prior;
 };
 
 /// Throws InputError with all faults.

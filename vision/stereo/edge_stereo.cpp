@@ -23,13 +23,6 @@ const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
   return options;
 }
 
-std::optional<SizePrior> Prior(const EdgeStereoOptions& options) {
-  if (options.expected_width_m <= 0.0) return std::nullopt;
-  return SizePrior{.width_m = options.expected_width_m,
-                   .height_m = options.expected_height_m,
-                   .sigma_m = options.expected_size_sigma_m};
-}
-
 const StereoObservation& StereoPart(const Observation& observation) {
   const auto* stereo = std::get_if<StereoObservation>(&observation);
   if (stereo == nullptr) {
@@ -61,7 +54,7 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                .border = {.smallest_m = options.min_border_m,
                           .largest_share = options.max_border_share,
                           .min_contrast_dn = options.min_contrast_dn},
-               .size = Prior(options)} {}
+               .size = SizePriorOf(options.prior)} {}
 
 Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   const StereoObservation& seen = StereoPart(observation);
@@ -118,7 +111,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     FrameFitter fitter(views, fitting_);
     auto rough = fitter.FitRoughly(FrameRectangle::FromCorners(p_LV));
     if (!rough) continue;
-    if (auto objection = ObjectionToSize(rough->adjustment.frame, fitting_.size)) {
+    if (auto objection = ObjectionToPrior(rough->adjustment.frame, options_.prior)) {
       last_objection = *objection;
       continue;
     }
@@ -195,7 +188,8 @@ std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
                                         "{:.2f}, {:.2f} are needed",
                                         clarity, options_.min_darkness)};
   }
-  return std::nullopt;
+  if (!options_.prior.knows_grey()) return std::nullopt;
+  return ObjectionOf(options_.prior, FrameGreyRatio(left, frame, darkness_));
 }
 
 }  // namespace fenestra

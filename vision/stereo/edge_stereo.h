@@ -33,7 +33,8 @@ class EdgeStereoDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
   /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
-  /// "implausible_shape", "not_dark", "unexpected_size", by how far the best candidate came.
+  /// "implausible_shape", "not_dark", by how far the best candidate came; "unexpected_size",
+  /// "unexpected_shape" or "unexpected_grey" with a prior.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:

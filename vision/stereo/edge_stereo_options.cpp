@@ -58,18 +58,6 @@ void AddLook(Table& table) {
               "widest frame, as a share of the shorter side");
 }
 
-void AddPrior(Table& table) {
-  table
-      .Number("expected_width_m", FENESTRA_FIELD(expected_width_m), {0.0, 1000.0},
-              "outer width that the window is known to have; 0: not known")
-      .Number("expected_height_m", FENESTRA_FIELD(expected_height_m), {0.0, 1000.0},
-              "outer height that the window is known to have; 0: not known")
-      .Number("expected_size_sigma_m", FENESTRA_FIELD(expected_size_sigma_m), {1e-6, 10.0},
-              "standard deviation of that knowledge");
-}
-
-#undef FENESTRA_FIELD
-
 }  // namespace
 
 const Table& EdgeStereoParameters() {
@@ -77,11 +65,13 @@ const Table& EdgeStereoParameters() {
     Table made;
     AddShape(made);
     AddLook(made);
-    AddPrior(made);
+    made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
     return made;
   }();
   return table;
 }
+
+#undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
   std::vector<InputFault> faults;
@@ -95,8 +85,7 @@ void Validate(const Options& options) {
   }
   demand(options.nearest_m < options.farthest_m, "nearest_m must be less than farthest_m");
   demand(options.min_side_m < options.max_side_m, "min_side_m must be less than max_side_m");
-  demand((options.expected_width_m > 0.0) == (options.expected_height_m > 0.0),
-         "expected_width_m and expected_height_m must be given both or not at all");
+  for (const std::string& fault : FaultsOf(options.prior)) demand(false, fault);
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/parameter_table.h"
+#include "vision/window_prior.h"
 
 namespace fenestra {
 
@@ -39,10 +40,8 @@ struct EdgeStereoOptions {
   double min_border_m = 0.02;
   double max_border_share = 0.3;  ///< Of the shorter side.
 
-  // What is known beforehand; 0: nothing.
-  double expected_width_m = 0.0;
-  double expected_height_m = 0.0;
-  double expected_size_sigma_m = 0.02;
+  /// A known size also goes into the fit, and helps the depth.
+  WindowPrior prior;
 
   bool operator==(const EdgeStereoOptions&) const = default;
 };

@@ -17,6 +17,9 @@ constexpr int kProbes = 32;  // Along a side, and across the opening.
 constexpr double kOpeningFrom = 0.3;
 constexpr double kOpeningTo = 0.7;
 
+// How exactly sides are measured, before and after what the SAD window adds is taken off.
+constexpr double kSideShare = 0.2;
+
 // One or two patches.
 using Group = std::vector<const MatchedPatch*>;
 
@@ -159,7 +162,7 @@ std::optional<Miss> ObjectionToShape(const WindowEstimate& estimate_F,
                     "{:.0f} %",
                     shape.skew_rad, 100.0 * shape.taper));
   }
-  return std::nullopt;
+  return ObjectionOf(criteria.prior, estimate_F, kSideShare);
 }
 
 std::variant<FrameHypothesis, Miss> FindFrame(const std::vector<MatchedPatch>& patches,

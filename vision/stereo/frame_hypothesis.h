@@ -7,11 +7,12 @@
 #include "core/detection.h"
 #include "vision/frame/quadrilateral.h"
 #include "vision/stereo/matched_patch.h"
+#include "vision/window_prior.h"
 
 namespace fenestra {
 
-/// What a window frame must be like; all from the disparity image alone, none knows the size of
-/// the window that is looked for.
+/// What a window frame must be like; all from the disparity image alone, and what may be
+/// known beforehand.
 struct FrameCriteria {
   int window_px;              ///< SAD window, by which matched regions are fattened.
   double plane_tolerance_px;  ///< A pixel further from a plane is not on it.
@@ -26,6 +27,7 @@ struct FrameCriteria {
   double max_side_ratio;  ///< Longer over shorter side.
   double max_skew_rad;    ///< Departure of a corner from a right angle.
   double max_taper;       ///< Relative difference of opposite sides.
+  WindowPrior prior{};    ///< What is known of the window.
 };
 
 /// A closed contour in one plane that may be a frame.
@@ -35,7 +37,7 @@ struct FrameHypothesis {
   DisparityPlane plane;
 };
 
-/// "implausible_shape" with what was wrong, or nothing.
+/// "implausible_shape", or an objection of the prior, with what was wrong; or nothing.
 std::optional<Miss> ObjectionToShape(const WindowEstimate& estimate_F,
                                      const FrameCriteria& criteria);
 

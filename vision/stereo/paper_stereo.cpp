@@ -50,7 +50,8 @@ FrameCriteria Criteria(const PaperStereoOptions& options) {
           .max_side_m = options.max_side_m,
           .max_side_ratio = options.max_side_ratio,
           .max_skew_rad = options.max_skew_rad,
-          .max_taper = options.max_taper};
+          .max_taper = options.max_taper,
+          .prior = options.prior};
 }
 
 const StereoObservation& StereoPart(const Observation& observation) {

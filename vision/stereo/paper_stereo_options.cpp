@@ -80,8 +80,6 @@ void AddShape(Table& table) {
               "move the contour in by half a SAD window");
 }
 
-#undef FENESTRA_FIELD
-
 }  // namespace
 
 const Table& PaperStereoParameters() {
@@ -90,10 +88,13 @@ const Table& PaperStereoParameters() {
     AddMatching(made);
     AddGapClosing(made);
     AddShape(made);
+    made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
     return made;
   }();
   return table;
 }
+
+#undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
   std::vector<InputFault> faults;
@@ -110,6 +111,7 @@ void Validate(const Options& options) {
   demand(options.min_side_m < options.max_side_m, "min_side_m must be less than max_side_m");
   demand(options.canny_low_dn <= options.canny_high_dn,
          "canny_low_dn must not be more than canny_high_dn");
+  for (const std::string& fault : FaultsOf(options.prior)) demand(false, fault);
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

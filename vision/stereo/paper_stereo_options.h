@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/parameter_table.h"
+#include "vision/window_prior.h"
 
 namespace fenestra {
 
@@ -62,6 +63,9 @@ struct PaperStereoOptions {
   /// 15°: corners are known to some pixels only, which is 5° for a far frame.
   double max_skew_rad = 0.2617993877991494;
   double max_taper = 0.25;
+
+  /// What is known beforehand; nothing by default, as in the paper.
+  WindowPrior prior;
 
   // Contour.
   /// In the 8-bit depth image a frame stands at least 64 grey values, four times that in a Sobel

@@ -258,14 +258,14 @@ TEST(EdgeStereo, KnownSizeHelpsAndAWrongOneFindsNothing) {
   const ExactFrame frame = FrameSeenFrom({.distance_m = 8.0, .azimuth_deg = 10.0});
   const StereoObservation seen = ExactPair(rig, frame, kNoise_dn, RandomStream(3));
   EdgeStereoOptions options;
-  options.expected_width_m = options.expected_height_m = 1.0;
-  options.expected_size_sigma_m = 1e-5;
+  options.prior.expected_width_m = options.prior.expected_height_m = 1.0;
+  options.prior.expected_size_sigma_m = 1e-5;
   const WindowEstimate free = Found(Detect(rig, seen));
   const WindowEstimate known = Found(Detect(rig, seen, options));
   EXPECT_LT((*known.covariance_C)(2, 2), (*free.covariance_C)(2, 2));
   const Eigen::Vector3d error = known.p_CO - frame.X_LO.translation();
   EXPECT_LT(error.dot(known.covariance_C->inverse() * error), 16.27);  // χ² of 3, 1e-3.
-  options.expected_width_m = 1.4;
+  options.prior.expected_width_m = 1.4;
   const Detection wrong = Detect(rig, seen, options);
   ASSERT_TRUE(std::holds_alternative<Miss>(wrong));
   EXPECT_EQ(std::get<Miss>(wrong).reason, "unexpected_size");
@@ -346,7 +346,7 @@ TEST(EdgeStereoOptionsTest, ValidateNamesAllFaultsAtOnce) {
   EdgeStereoOptions bad;
   bad.min_darkness = 2.0;
   bad.nearest_m = 20.0;
-  bad.expected_width_m = 1.0;
+  bad.prior.expected_width_m = 1.0;
   try {
     Validate(bad);
     FAIL() << "accepted";
