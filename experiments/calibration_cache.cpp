@@ -30,11 +30,30 @@ std::string AsComments(const std::string& text) {
 }
 
 // What a file holds of a calibration: its sum shows damage.
-std::string Sealed(const std::string& yaml, const std::string& comments) {
-  return yaml + fmt::format("# sum {:016x}\n", HashOf(yaml)) + comments;
+std::string Sealed(const std::string& content, const std::string& comments) {
+  return content + fmt::format("# sum {:016x}\n", HashOf(content)) + comments;
 }
 
-std::optional<StereoCalibration> Read(const std::filesystem::path& file,
+constexpr char kCovariance[] = "# covariance ";
+
+std::string ToText(const StatedCalibration& stated) {
+  const double* numbers = stated.covariance.data();
+  return fmt::format("{}{}{}\n", ToOpenCvYaml(stated.calibration), kCovariance,
+                     fmt::join(numbers, numbers + stated.covariance.size(), " "));
+}
+
+PairMatrix CovarianceIn(const std::string& text) {
+  std::istringstream numbers(text.substr(text.find(kCovariance) + sizeof kCovariance - 1));
+  PairMatrix covariance;
+  std::string number;
+  for (double& element : covariance.reshaped()) {
+    numbers >> number;
+    element = std::strtod(number.c_str(), nullptr);
+  }
+  return covariance;
+}
+
+std::optional<StatedCalibration> Read(const std::filesystem::path& file,
                                       const std::string& comments) {
   // A folder can be opened as a file; reading it is what fails.
   std::error_code error;
@@ -46,7 +65,7 @@ std::optional<StereoCalibration> Read(const std::filesystem::path& file,
     return std::nullopt;
   }
   try {
-    return ReadStereoCalibration(file);
+    return StatedCalibration{ReadStereoCalibration(file), CovarianceIn(text)};
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -66,16 +85,16 @@ CalibrationCache CalibrationCache::OfUser() {
   return {};
 }
 
-StereoCalibration CalibrationCache::Get(const std::string& content,
-                                        const std::function<StereoCalibration()>& compute) const {
+StatedCalibration CalibrationCache::Get(const std::string& content,
+                                        const std::function<StatedCalibration()>& compute) const {
   if (!folder_) return compute();
   const std::string comments = AsComments("build " + BuildId() + "\n" + content);
   const std::filesystem::path file =
       *folder_ / fmt::format("calibration-{:016x}.yaml", HashOf(comments));
   if (const auto known = Read(file, comments)) return *known;
-  const StereoCalibration computed = compute();
+  const StatedCalibration computed = compute();
   try {
-    WriteFileAtomically(file, Sealed(ToOpenCvYaml(computed), comments));
+    WriteFileAtomically(file, Sealed(ToText(computed), comments));
   } catch (const InputError&) {
     // Computed again next time.
   }

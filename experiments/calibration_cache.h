@@ -6,8 +6,17 @@
 #include <string>
 
 #include "core/calibration.h"
+#include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {
+
+/// A calibration and the covariance that it states of itself; see StereoCalibrationResult.
+struct StatedCalibration {
+  StereoCalibration calibration;
+  PairMatrix covariance;
+
+  bool operator==(const StatedCalibration&) const = default;
+};
 
 /// Calibrations that were computed before, kept in files: the cells of a study share their rigs,
 /// and a study that is resumed, or run again with another detector, meets the same ones. The name
@@ -26,8 +35,8 @@ class CalibrationCache {
 
   /// The calibration that belongs to `content`; `compute` makes it where it is not known. A folder
   /// that cannot be written costs time, not the result.
-  StereoCalibration Get(const std::string& content,
-                        const std::function<StereoCalibration()>& compute) const;
+  StatedCalibration Get(const std::string& content,
+                        const std::function<StatedCalibration()>& compute) const;
 
  private:
   std::optional<std::filesystem::path> folder_;

@@ -1,6 +1,7 @@
 #include "experiments/calibration_choice.h"
 
 #include "experiments/board_calibration.h"
+#include "experiments/theory/calibration_law.h"
 
 namespace fenestra {
 namespace {
@@ -20,7 +21,7 @@ StereoCalibration Perturbed(const StereoCalibration& truth, const CalibrationCho
   return {.left = truth.left, .right = truth.right, .X_RL = error * truth.X_RL};
 }
 
-StereoCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choice,
+StatedCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choice,
                              const RandomStream& stream, const CalibrationCache& cache) {
   BoardSessionOptions session;
   session.board.kind = choice.board;
@@ -28,7 +29,10 @@ StereoCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
   // A study that leaves the noise out of its pictures asks what the calibration alone does: the
   // pictures of the boards have theirs.
   const StereoRig noisy = rig.WithNoise();
-  const auto calibrate = [&] { return CalibrateWithBoards(noisy, session, stream).calibration; };
+  const auto calibrate = [&] {
+    const StereoCalibrationResult result = CalibrateWithBoards(noisy, session, stream);
+    return StatedCalibration{result.calibration, result.covariance};
+  };
   return cache.Get(ContentOf(noisy, session, stream), calibrate);
 }
 
@@ -36,22 +40,28 @@ StereoCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
 
 CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
                          const RandomStream& calibration, const CalibrationCache& cache) {
+  const auto with_law = [&choice](const StereoRig& flown, const StereoCalibration& told,
+                                  const std::optional<PairMatrix>& boards = {}) {
+    return CalibratedRig{flown, told, CalibrationLaw(flown, choice, boards)};
+  };
+  const auto with_boards = [&](const StereoRig& flown) {
+    const StatedCalibration stated = WithBoards(rig, choice, calibration.Child("boards"), cache);
+    return with_law(flown, stated.calibration, stated.covariance);
+  };
   switch (choice.source) {
     case CalibrationSource::kExact:
-      return {rig, rig.cameras()};
+      return with_law(rig, rig.cameras());
     case CalibrationSource::kPerturbed:
-      return {rig, Perturbed(rig.cameras(), choice, calibration)};
+      return with_law(rig, Perturbed(rig.cameras(), choice, calibration));
     case CalibrationSource::kBoards:
-      return {rig, WithBoards(rig, choice, calibration.Child("boards"), cache)};
-    case CalibrationSource::kStale: {
-      const Pose X_RRnew = RandomPose(calibration.Child("shake"), choice.shake_rotation_rad,
-                                      choice.shake_translation_m);
-      return {rig.Displaced(X_RRnew), WithBoards(rig, choice, calibration.Child("boards"), cache)};
-    }
+      return with_boards(rig);
+    case CalibrationSource::kStale:
+      return with_boards(rig.Displaced(RandomPose(
+          calibration.Child("shake"), choice.shake_rotation_rad, choice.shake_translation_m)));
     case CalibrationSource::kDesign:
-      return {rig, DesignOf(rig.options())};
+      return with_law(rig, DesignOf(rig.options()));
   }
-  return {rig, rig.cameras()};
+  return with_law(rig, rig.cameras());
 }
 
 }  // namespace fenestra

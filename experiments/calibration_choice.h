@@ -36,6 +36,8 @@ struct CalibrationChoice {
 struct CalibratedRig {
   StereoRig rig;
   StereoCalibration told;
+  /// How far `told` may be from the truth: see CalibrationLaw. nullopt: it is the truth.
+  std::optional<PairMatrix> law;
 };
 
 /// Calibrates a rig that was just built. A pure function of all but the cache, which only saves

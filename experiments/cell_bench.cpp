@@ -35,12 +35,14 @@ CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
   if (cell_.sensor == SensorKind::kRgbd) {
     StructuredLightSensor sensor(settings.rgbd);
     const RgbdCalibration calibration = sensor.nominal();
-    return {.sensor = std::move(sensor), .calibration = calibration};
+    return {.sensor = std::move(sensor), .calibration = calibration, .calibration_law = {}};
   }
   const StereoRig built(settings.stereo, trial.Child("rig"));
   CalibratedRig calibrated =
       Calibrated(built, settings.stereo_calibration, trial.Child("calibration"), cache_);
-  return {.sensor = std::move(calibrated.rig), .calibration = calibrated.told};
+  return {.sensor = std::move(calibrated.rig),
+          .calibration = calibrated.told,
+          .calibration_law = calibrated.law};
 }
 
 std::shared_ptr<const CellBench::World> CellBench::WorldOf(const TrialSettings& settings) const {
@@ -59,14 +61,24 @@ SimulatedTrial CellBench::Simulate(int trial_index) const {
   const auto instrument = InstrumentOf(trial);
   const Pose X_WB = RigPoseOf(settings, world->scene);
   const RandomStream shot = trial.stream.Child("shot");
-  return std::visit(
-      [&](const auto& sensor) -> SimulatedTrial {
-        return {.trial = trial,
-                .calibration = instrument->calibration,
-                .observation = sensor.Observe(world->caster, settings.lighting, X_WB, shot),
-                .truth = sensor.Truth(world->scene, X_WB)};
-      },
-      instrument->sensor);
+  SimulatedTrial simulated{.trial = trial,
+                           .calibration = instrument->calibration,
+                           .observation = {},
+                           .truth = {},
+                           .information = {}};
+  if (const auto* rig = std::get_if<StereoRig>(&instrument->sensor)) {
+    const StereoShot seen = rig->Shoot(world->caster, settings.lighting, X_WB, shot);
+    simulated.observation = seen.observation;
+    simulated.truth = rig->Truth(world->scene, X_WB);
+    simulated.information =
+        InformationOf(*rig, seen, simulated.truth, settings.facade.window.frame_width_m,
+                      instrument->calibration_law);
+    return simulated;
+  }
+  const auto& sensor = std::get<StructuredLightSensor>(instrument->sensor);
+  simulated.observation = sensor.Observe(world->caster, settings.lighting, X_WB, shot);
+  simulated.truth = sensor.Truth(world->scene, X_WB);
+  return simulated;
 }
 
 Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
@@ -95,7 +107,11 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
                      .levels = cell_.levels,
                      .drawn = simulated.trial.drawn,
                      .score = ScoreDetection(outcome, simulated.truth),
+                     .bound_C = {},
                      .stages = log.times()};
+  if (const auto& information = simulated.information) {
+    record.bound_C = BoundOf(*information, KnowledgeOf(choice, *information));
+  }
   return {std::move(record), std::move(log)};
 }
 

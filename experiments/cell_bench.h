@@ -10,6 +10,7 @@
 #include "experiments/calibration_cache.h"
 #include "experiments/sampling.h"
 #include "experiments/study.h"
+#include "experiments/theory/trial_information.h"
 #include "experiments/trial_record.h"
 #include "renderers/ray_caster.h"
 #include "sim/ground_truth.h"
@@ -24,6 +25,8 @@ struct SimulatedTrial {
   SensorCalibration calibration;  ///< What detectors are told.
   Observation observation;
   GroundTruth truth;
+  /// What the observation tells of the target; nullopt where theory has no word for it.
+  std::optional<TrialInformation> information;
 };
 
 /// One detector's attempt at a simulated trial.
@@ -64,6 +67,7 @@ class CellBench {
   struct Instrument {
     std::variant<StereoRig, StructuredLightSensor> sensor;
     SensorCalibration calibration;
+    std::optional<PairMatrix> calibration_law;  ///< See CalibratedRig.
   };
 
   Instrument MakeInstrument(const TrialSettings& settings, const RandomStream& trial) const;

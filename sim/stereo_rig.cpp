@@ -254,6 +254,11 @@ StereoObservation StereoRig::Develop(const QuarterImages& left, const QuarterIma
 
 StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& lighting,
                                      const Pose& X_WB, const RandomStream& shot) const {
+  return Shoot(caster, lighting, X_WB, shot).observation;
+}
+
+StereoShot StereoRig::Shoot(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                            const RandomStream& shot) const {
   const RandomStream left_sampling = shot.Child("left_sampling");
   const auto left_during = [&](double exposure_s) {
     return ElectronsPerSecond(
@@ -266,7 +271,10 @@ StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& li
   const cv::Mat1f right = ElectronsPerSecond(
       *right_, Light(*right_, X_BR(), caster, lighting, X_WB, options_.trigger_skew_s,
                      exposure.exposure_s, shot.Child("right_sampling")));
-  return Expose(left, right, exposure, shot);
+  return {.observation = Expose(left, right, exposure, shot),
+          .exposure = exposure,
+          .left_e = left * exposure.exposure_s,
+          .right_e = right * exposure.exposure_s};
 }
 
 GroundTruth StereoRig::Truth(const Scene& scene, const Pose& X_WB) const {

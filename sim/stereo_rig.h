@@ -54,6 +54,15 @@ void Validate(const StereoRigOptions& options);
 /// The rig as designed, before any tolerance.
 StereoCalibration DesignOf(const StereoRigOptions& options);
 
+/// A pair of pictures with what made them.
+struct StereoShot {
+  StereoObservation observation;
+  ExposureSetting exposure;
+  /// Mean photo-electrons of each pixel in the exposure, before fixed pattern and noise.
+  cv::Mat1f left_e;
+  cv::Mat1f right_e;
+};
+
 /// A rig as it stands after it was built: true cameras and poses, and each camera's fixed pattern.
 /// Frame B: origin midway between the cameras as designed, axes of the left camera as designed.
 ///
@@ -81,6 +90,9 @@ class StereoRig {
 
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const RandomStream& shot) const;
+  /// The same with what made it.
+  StereoShot Shoot(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                   const RandomStream& shot) const;
   /// What optics and sensors make of luminance in the image plane, by quarters of pixels [cd/m²].
   StereoObservation Develop(const QuarterImages& left, const QuarterImages& right,
                             const RandomStream& shot) const;

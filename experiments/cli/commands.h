@@ -22,6 +22,7 @@ void AddRenderCommand(CLI::App& program, int& exit_code);
 void AddExportCommand(CLI::App& program, int& exit_code);
 void AddReplayCommand(CLI::App& program, int& exit_code);
 void AddDetectCommand(CLI::App& program, int& exit_code);
+void AddBoundCommand(CLI::App& program, int& exit_code);
 void AddCalibrateCommand(CLI::App& program, int& exit_code);
 void AddEmvaCommand(CLI::App& program, int& exit_code);
 void AddDepthCommand(CLI::App& program, int& exit_code);

@@ -88,6 +88,7 @@ int Main(int argc, char** argv) {
   AddExportCommand(program, exit_code);
   AddReplayCommand(program, exit_code);
   AddDetectCommand(program, exit_code);
+  AddBoundCommand(program, exit_code);
   AddCalibrateCommand(program, exit_code);
   AddEmvaCommand(program, exit_code);
   AddDepthCommand(program, exit_code);

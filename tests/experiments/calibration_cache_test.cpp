@@ -17,20 +17,22 @@ using testing::ReadFile;
 using testing::TemporaryFolder;
 
 // A calibration whose numbers have no short decimal form.
-StereoCalibration Odd() {
+StatedCalibration Odd() {
   StereoCalibration calibration = DesignOf({});
   calibration.X_RL = Pose(RotationFromVector({0.01 / 3.0, -0.02 / 7.0, 0.0}), {-1.05 / 3.0, 0, 0});
-  return calibration;
+  PairMatrix covariance = PairMatrix::Constant(1e-9 / 3.0);
+  covariance(0, 23) = -1e-300 / 7.0;
+  return {calibration, covariance};
 }
 
 // Asks for the calibration of `content`, and whether it had to be computed.
 struct Answer {
-  StereoCalibration calibration;
+  StatedCalibration calibration;
   bool computed = false;
 };
 
 Answer Ask(const CalibrationCache& cache, const std::string& content) {
-  Answer answer{.calibration = DesignOf({})};
+  Answer answer{.calibration = {DesignOf({}), PairMatrix::Zero()}};
   answer.calibration = cache.Get(content, [&answer] {
     answer.computed = true;
     return Odd();

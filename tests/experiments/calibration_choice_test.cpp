@@ -109,7 +109,9 @@ class PreparedBoards {
   const CalibrationCache& For(const CalibrationChoice& choice, const RandomStream& stream) {
     BoardSessionOptions session;
     session.views = choice.boards;
-    cache_.Get(ContentOf(rig_, session, stream.Child("boards")), [] { return Known(); });
+    cache_.Get(ContentOf(rig_, session, stream.Child("boards")), [] {
+      return StatedCalibration{Known(), PairMatrix::Zero()};
+    });
     return cache_;
   }
   static StereoCalibration Known() { return DesignOf(SmallImages()); }

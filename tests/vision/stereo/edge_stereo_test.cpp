@@ -8,12 +8,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "tests/vision/stereo/exact_bound.h"
 #include "tests/vision/stereo/exact_frame.h"
 #include "tests/vision/stereo/stereo_scene.h"
 
 namespace fenestra {
 namespace {
 
+using testing::ExactBound;
 using testing::ExactFrame;
 using testing::ExactPair;
 using testing::ExactPicture;
@@ -200,47 +202,10 @@ TEST(EdgeStereo, CovarianceIsHonest) {
   EXPECT_FALSE(IsHonest(0.5 * sum, count));
 }
 
-// Cramér and Rao's bound of the centroid's covariance: all pixels' information on place, turn,
-// sizes, border, grey values and blur, by central differences of exact pictures.
-Eigen::Matrix3d CentroidBound(const StereoCalibration& rig, const ExactFrame& frame) {
-  constexpr int kParameters = 13;
-  const auto changed = [&](int parameter, double by) {
-    ExactFrame f = frame;
-    Eigen::Vector3d turn = Eigen::Vector3d::Zero();
-    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-    if (parameter < 3) shift[parameter] = by;
-    if (parameter >= 3 && parameter < 6) turn[parameter - 3] = by;
-    f.X_LO =
-        Pose(frame.X_LO.rotation() * RotationFromVector(turn), frame.X_LO.translation() + shift);
-    double* others[] = {&f.width_m,  &f.height_m,   &f.border_m, &f.wall_dn,
-                        &f.frame_dn, &f.opening_dn, &f.blur_px};
-    if (parameter >= 6) *others[parameter - 6] += by;
-    return f;
-  };
-  const double variance = kNoise_dn * kNoise_dn + 1.0 / 12.0;
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kParameters, kParameters);
-  for (const bool left : {true, false}) {
-    const CameraModel& camera = left ? rig.left : rig.right;
-    const Pose X_CL = left ? Pose() : rig.X_RL;
-    std::vector<cv::Mat1d> derivatives;
-    for (int i = 0; i < kParameters; ++i) {
-      const double step = i < 9 ? 1e-3 : i < 12 ? 1.0 : 0.02;
-      cv::Mat1d derivative = ExactPicture(camera, X_CL, changed(i, step)) -
-                             ExactPicture(camera, X_CL, changed(i, -step));
-      derivatives.push_back(derivative / (2.0 * step));
-    }
-    for (int i = 0; i < kParameters; ++i) {
-      for (int j = 0; j < kParameters; ++j) {
-        information(i, j) += derivatives[i].dot(derivatives[j]) / variance;
-      }
-    }
-  }
-  return information.inverse().topLeftCorner<3, 3>();
-}
-
 TEST(EdgeStereo, ErrorIsNearTheCramerRaoBound) {
   for (const View& view : kCovarianceViews) {
-    const Eigen::Matrix3d bound = CentroidBound(SmallRig(), FrameSeenFrom(view));
+    const Eigen::Matrix3d bound =
+        ExactBound(SmallRig(), FrameSeenFrom(view), kNoise_dn * kNoise_dn + 1.0 / 12.0);
     const Trials trials = Try(view, 60);
     ASSERT_EQ(trials.count, 60);
     for (int axis = 0; axis < 3; ++axis) {

@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "core/input_error.h"
+#include "experiments/cli/commands.h"
+#include "experiments/study_catalogue.h"
+#include "experiments/study_reader.h"
+#include "experiments/theory/bound_table.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+struct BoundArguments {
+  std::string study;
+  std::optional<int> cell;
+  int trials = 5;
+};
+
+constexpr char kLegend[] =
+    "Cramér and Rao's bounds on the centroid's error [mm], √ of the mean over n trials in view: "
+    "in\n"
+    "depth (z) and in space (3D). told: with the calibration that detectors are told, whose error\n"
+    "is unknown; calib: with the true one; size: as told, and the frame's size is known; both: "
+    "the\n"
+    "true calibration and the size. —: no bound. See docs/theory.md.\n";
+
+void PrintBounds(const BoundArguments& arguments) {
+  const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
+  std::vector<Cell> cells;
+  if (arguments.cell) {
+    cells.push_back(CellOf(study, *arguments.cell));
+  } else {
+    cells = Cells(study);
+  }
+  std::vector<CellBounds> bounds;
+  for (const Cell& cell : cells) bounds.push_back(BoundsOfCell(study, cell, arguments.trials));
+  fmt::print("{}\n{}", BoundTable(bounds), kLegend);
+}
+
+}  // namespace
+
+void AddBoundCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "bound", "Prints how exactly a study's windows could be found at best");
+  command->footer(
+      "Example:\n"
+      "  fenestra bound paper --trials 3\n"
+      "Renders the first trials of each cell; no detector sees them.");
+  const auto arguments = std::make_shared<BoundArguments>();
+  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
+  command->add_option("--cell", arguments->cell, "Only this cell, by its index");
+  command->add_option("--trials", arguments->trials, "Of each cell")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->callback([arguments, &exit_code] {
+    PrintBounds(*arguments);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli

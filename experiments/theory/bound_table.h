@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/study.h"
+#include "experiments/summary.h"
+
+namespace fenestra {
+
+/// The states of knowledge that the table compares.
+enum class Known { kAsTold, kCalibration, kSize, kCalibrationAndSize };
+inline constexpr std::array<Known, 4> kAllKnown = {Known::kAsTold, Known::kCalibration,
+                                                   Known::kSize, Known::kCalibrationAndSize};
+
+/// The bounds of one cell of a study.
+struct CellBounds {
+  std::string part;
+  SensorKind sensor;
+  FactorValues levels;
+  int in_view = 0;  ///< Trials with the target wholly in view: these count.
+  /// √ of the mean variance over these trials, by Known; nullopt if one of them has no bound.
+  std::array<std::optional<ErrorBounds>, kAllKnown.size()> bounds{};
+};
+
+/// From the first `trials` trials of the cell, none of which a detector sees.
+CellBounds BoundsOfCell(const Study& study, const Cell& cell, int trials);
+
+/// A table for the terminal: bounds in depth and in three dimensions [mm].
+std::string BoundTable(const std::vector<CellBounds>& cells);
+
+}  // namespace fenestra

@@ -1,0 +1,55 @@
+#include "experiments/theory/stereo_information.h"
+
+#include "experiments/theory/cramer_rao.h"
+#include "experiments/theory/picture_information.h"
+
+namespace fenestra {
+namespace {
+
+constexpr int kPair = kFrameUnknowns;
+constexpr int kBlurs = kPair + kPairParameters;
+constexpr int kLevels = kBlurs + 2;
+constexpr int kUnknowns = kLevels + 2 * kLevelsOfPicture;
+
+}  // namespace
+
+std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
+                                                 const StereoPictures& pictures) {
+  const StereoCalibration& cameras = pictures.cameras;
+  const PictureView left{.camera = cameras.left,
+                         .X_VC = Pose(),
+                         .electrons = pictures.left_e,
+                         .noise = pictures.noise,
+                         .spread = pictures.spread,
+                         .blur_unknown = kBlurs,
+                         .level_unknown = kLevels,
+                         .camera_unknown = kPair};
+  const PictureView right{.camera = cameras.right,
+                          .X_VC = cameras.X_RL,
+                          .electrons = pictures.right_e,
+                          .noise = pictures.noise,
+                          .spread = pictures.spread,
+                          .blur_unknown = kBlurs + 1,
+                          .level_unknown = kLevels + kLevelsOfPicture,
+                          .camera_unknown = kPair + kCameraParameters,
+                          .pose_unknown = kPair + 2 * kCameraParameters};
+  const auto by_left = PictureInformation(frame, left, kUnknowns);
+  const auto by_right = PictureInformation(frame, right, kUnknowns);
+  if (!by_left || !by_right) return std::nullopt;
+  return Eigen::MatrixXd(*by_left + *by_right);
+}
+
+std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
+                                           const Knowledge& knowledge) {
+  Eigen::MatrixXd known = information;
+  if (knowledge.size_sigma_m) {
+    const double prior = 1.0 / (*knowledge.size_sigma_m * *knowledge.size_sigma_m);
+    for (const int unknown : {kWidthUnknown, kHeightUnknown}) known(unknown, unknown) += prior;
+  }
+  known = knowledge.calibration ? WithNuisance(known, kPair, *knowledge.calibration)
+                                : WithKnown(known, kPair, kPairParameters);
+  const auto bound = CramerRaoBound(known, kCentroidUnknowns);
+  return bound ? std::optional<Eigen::Matrix3d>(*bound) : std::nullopt;
+}
+
+}  // namespace fenestra
