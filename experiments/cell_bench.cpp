@@ -6,6 +6,17 @@
 #include "experiments/trial_scene.h"
 
 namespace fenestra {
+namespace {
+
+// The painted target is in the wall's face.
+TargetOptions TargetOf(const TrialSettings& settings) {
+  const WindowOptions& window = settings.facade.window;
+  return {.border_m = window.frame_width_m,
+          .setback_m = settings.scene == kFacadeScene ? window.setback_m : 0.0};
+}
+
+}  // namespace
+
 CellBench::World::World(const TrialSettings& settings)
     : scene(MakeScene(settings)), caster(scene) {}
 
@@ -35,14 +46,19 @@ CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
   if (cell_.sensor == SensorKind::kRgbd) {
     StructuredLightSensor sensor(settings.rgbd);
     const RgbdCalibration calibration = sensor.nominal();
-    return {.sensor = std::move(sensor), .calibration = calibration, .calibration_law = {}};
+    const DepthTheory theory(sensor);
+    return {.sensor = std::move(sensor),
+            .calibration = calibration,
+            .calibration_law = {},
+            .depth_theory = theory};
   }
   const StereoRig built(settings.stereo, trial.Child("rig"));
   CalibratedRig calibrated =
       Calibrated(built, settings.stereo_calibration, trial.Child("calibration"), cache_);
   return {.sensor = std::move(calibrated.rig),
           .calibration = calibrated.told,
-          .calibration_law = calibrated.law};
+          .calibration_law = calibrated.law,
+          .depth_theory = {}};
 }
 
 std::shared_ptr<const CellBench::World> CellBench::WorldOf(const TrialSettings& settings) const {
@@ -70,14 +86,16 @@ SimulatedTrial CellBench::Simulate(int trial_index) const {
     const StereoShot seen = rig->Shoot(world->caster, settings.lighting, X_WB, shot);
     simulated.observation = seen.observation;
     simulated.truth = rig->Truth(world->scene, X_WB);
-    simulated.information =
-        InformationOf(*rig, seen, simulated.truth, settings.facade.window.frame_width_m,
-                      instrument->calibration_law);
+    simulated.information = InformationOf(*rig, seen, simulated.truth, TargetOf(settings).border_m,
+                                          instrument->calibration_law);
     return simulated;
   }
   const auto& sensor = std::get<StructuredLightSensor>(instrument->sensor);
-  simulated.observation = sensor.Observe(world->caster, settings.lighting, X_WB, shot);
+  const RgbdObservation seen = sensor.Observe(world->caster, settings.lighting, X_WB, shot);
+  simulated.observation = seen;
   simulated.truth = sensor.Truth(world->scene, X_WB);
+  simulated.information = InformationOf(sensor, *instrument->depth_theory, seen, simulated.truth,
+                                        TargetOf(settings), world->caster, settings.lighting, X_WB);
   return simulated;
 }
 

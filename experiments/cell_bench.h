@@ -67,7 +67,8 @@ class CellBench {
   struct Instrument {
     std::variant<StereoRig, StructuredLightSensor> sensor;
     SensorCalibration calibration;
-    std::optional<PairMatrix> calibration_law;  ///< See CalibratedRig.
+    std::optional<PairMatrix> calibration_law;  ///< Of a stereo rig; see CalibratedRig.
+    std::optional<DepthTheory> depth_theory;    ///< Of a structured-light sensor.
   };
 
   Instrument MakeInstrument(const TrialSettings& settings, const RandomStream& trial) const;

@@ -22,10 +22,11 @@ struct BoundArguments {
 constexpr char kLegend[] =
     "Cramér and Rao's bounds on the centroid's error [mm], √ of the mean over n trials in view: "
     "in\n"
-    "depth (z) and in space (3D). told: with the calibration that detectors are told, whose error\n"
-    "is unknown; calib: with the true one; size: as told, and the frame's size is known; both: "
-    "the\n"
-    "true calibration and the size. —: no bound. See docs/theory.md.\n";
+    "depth (z) and in space (3D). told: with the calibration that stereo detectors are told, "
+    "whose\n"
+    "error is unknown; for RGB-D without knowing how far the frame stands behind the wall's face.\n"
+    "geom: with the true calibration; for RGB-D that distance is known. size: as told, and the\n"
+    "frame's size is known. both: geom and the size. —: no bound. See docs/theory.md.\n";
 
 void PrintBounds(const BoundArguments& arguments) {
   const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());

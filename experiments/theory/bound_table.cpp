@@ -10,15 +10,17 @@
 namespace fenestra {
 namespace {
 
-// As good as exact, but finite.
+// As good as exact, and as nothing, but finite.
 constexpr double kKnownSize_m = 1e-6;
+constexpr double kUnknownWall_m = 1e3;
 
 Knowledge KnowledgeFor(Known known, const TrialInformation& information) {
   Knowledge knowledge;
   if (known == Known::kAsTold || known == Known::kSize) {
     knowledge.calibration = information.calibration;
+    if (information.sensor == SensorKind::kRgbd) knowledge.wall_sigma_m = kUnknownWall_m;
   }
-  if (known == Known::kSize || known == Known::kCalibrationAndSize) {
+  if (known == Known::kSize || known == Known::kGeometryAndSize) {
     knowledge.size_sigma_m = kKnownSize_m;
   }
   return knowledge;
@@ -85,7 +87,7 @@ std::string BoundTable(const std::vector<CellBounds>& cells) {
   for (const std::string& name : levels) table.AddColumn(name);
   table.AddColumn("n");
   for (const char* heading :
-       {"told z", "told 3D", "calib z", "calib 3D", "size z", "size 3D", "both z", "both 3D"}) {
+       {"told z", "told 3D", "geom z", "geom 3D", "size z", "size 3D", "both z", "both 3D"}) {
     table.AddColumn(heading);
   }
   for (const CellBounds& cell : cells) {

@@ -11,9 +11,12 @@
 namespace fenestra {
 
 /// The states of knowledge that the table compares.
-enum class Known { kAsTold, kCalibration, kSize, kCalibrationAndSize };
-inline constexpr std::array<Known, 4> kAllKnown = {Known::kAsTold, Known::kCalibration,
-                                                   Known::kSize, Known::kCalibrationAndSize};
+/// kAsTold: stereo detectors know the calibration that the study tells them, RGB-D detectors do not
+/// know how far the frame stands behind the wall's face; kGeometry: the true calibration, and that
+/// distance.
+enum class Known { kAsTold, kGeometry, kSize, kGeometryAndSize };
+inline constexpr std::array<Known, 4> kAllKnown = {Known::kAsTold, Known::kGeometry, Known::kSize,
+                                                   Known::kGeometryAndSize};
 
 /// The bounds of one cell of a study.
 struct CellBounds {

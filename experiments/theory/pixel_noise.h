@@ -25,6 +25,8 @@ class PixelNoise {
   double VarianceSlope(double mean_e) const;
   /// Whether the pixel is so near to saturation (3 σ) that its value tells little.
   bool IsSaturated(double mean_e) const;
+  /// Photo-electrons that fill a pixel.
+  double full_scale_e() const { return full_scale_e_; }
 
  private:
   double constant_e2_ = 0.0;

@@ -41,11 +41,7 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
 
 std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
                                            const Knowledge& knowledge) {
-  Eigen::MatrixXd known = information;
-  if (knowledge.size_sigma_m) {
-    const double prior = 1.0 / (*knowledge.size_sigma_m * *knowledge.size_sigma_m);
-    for (const int unknown : {kWidthUnknown, kHeightUnknown}) known(unknown, unknown) += prior;
-  }
+  Eigen::MatrixXd known = WithSizePrior(information, knowledge);
   known = knowledge.calibration ? WithNuisance(known, kPair, *knowledge.calibration)
                                 : WithKnown(known, kPair, kPairParameters);
   const auto bound = CramerRaoBound(known, kCentroidUnknowns);

@@ -1,5 +1,6 @@
 #include "experiments/theory/trial_information.h"
 
+#include "experiments/theory/rgbd_information.h"
 #include "experiments/theory/stereo_information.h"
 
 namespace fenestra {
@@ -31,9 +32,26 @@ std::optional<TrialInformation> InformationOf(const StereoRig& rig, const Stereo
   return TrialInformation{SensorKind::kStereo, *fisher, calibration};
 }
 
+std::optional<TrialInformation> InformationOf(const StructuredLightSensor& sensor,
+                                              const DepthTheory& theory,
+                                              const RgbdObservation& observation,
+                                              const GroundTruth& truth, const TargetOptions& target,
+                                              const RayCaster& caster, const Lighting& lighting,
+                                              const Pose& X_WB) {
+  if (!truth.target || !truth.in_view) return std::nullopt;
+  const FrameState frame = FrameState::Of(*truth.target, target.border_m);
+  const DepthMatrix depth =
+      theory.Information(frame, target.setback_m, observation.depth, caster, lighting, X_WB);
+  const auto fisher =
+      RgbdInformation(frame, sensor.nominal(), sensor.options().color, observation.color, depth);
+  if (!fisher) return std::nullopt;
+  return TrialInformation{SensorKind::kRgbd, *fisher, {}};
+}
+
 std::optional<Eigen::Matrix3d> BoundOf(const TrialInformation& information,
                                        const Knowledge& knowledge) {
-  return StereoBound(information.fisher, knowledge);
+  return information.sensor == SensorKind::kStereo ? StereoBound(information.fisher, knowledge)
+                                                   : RgbdBound(information.fisher, knowledge);
 }
 
 Knowledge KnowledgeOf(const DetectorChoice& detector, const TrialInformation& information) {

@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "experiments/study.h"
+#include "experiments/theory/depth_information.h"
 #include "experiments/theory/knowledge.h"
 #include "sim/ground_truth.h"
 #include "sim/stereo_rig.h"
+#include "sim/structured_light_sensor.h"
 
 namespace fenestra {
 
@@ -14,7 +16,7 @@ namespace fenestra {
 /// follows. See docs/theory.md.
 struct TrialInformation {
   SensorKind sensor;
-  Eigen::MatrixXd fisher;  ///< Unknowns as in StereoInformation.
+  Eigen::MatrixXd fisher;  ///< Unknowns as in StereoInformation or RgbdInformation.
   /// How far the calibration that detectors are told may be from the truth; nullopt: not at all.
   std::optional<PairMatrix> calibration;
 };
@@ -24,6 +26,20 @@ struct TrialInformation {
 std::optional<TrialInformation> InformationOf(const StereoRig& rig, const StereoShot& shot,
                                               const GroundTruth& truth, double border_m,
                                               const std::optional<PairMatrix>& calibration);
+
+/// The target in its wall, as the scene has it.
+struct TargetOptions {
+  double border_m;   ///< Width of the frame, seen from the front.
+  double setback_m;  ///< Front of the frame behind the wall's face.
+};
+
+/// The same for an RGB-D observation that the sensor made at X_WB.
+std::optional<TrialInformation> InformationOf(const StructuredLightSensor& sensor,
+                                              const DepthTheory& theory,
+                                              const RgbdObservation& observation,
+                                              const GroundTruth& truth, const TargetOptions& target,
+                                              const RayCaster& caster, const Lighting& lighting,
+                                              const Pose& X_WB);
 
 /// The bound on the covariance of p_CO for an unbiased estimate with this knowledge [m²]; nullopt
 /// if the observation does not determine the centroid.

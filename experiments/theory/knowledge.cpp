@@ -1,0 +1,15 @@
+#include "experiments/theory/knowledge.h"
+
+#include "experiments/theory/frame_state.h"
+
+namespace fenestra {
+
+Eigen::MatrixXd WithSizePrior(const Eigen::MatrixXd& information, const Knowledge& knowledge) {
+  Eigen::MatrixXd known = information;
+  if (!knowledge.size_sigma_m) return known;
+  const double prior = 1.0 / (*knowledge.size_sigma_m * *knowledge.size_sigma_m);
+  for (const int unknown : {kWidthUnknown, kHeightUnknown}) known(unknown, unknown) += prior;
+  return known;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,72 @@
+#include "experiments/theory/rgbd_information.h"
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "experiments/theory/cramer_rao.h"
+#include "experiments/theory/picture_information.h"
+
+namespace fenestra {
+namespace {
+
+constexpr int kChannels = 3;
+constexpr int kBlurs = kDepthUnknowns;
+constexpr int kLevels = kBlurs + kChannels;
+constexpr int kUnknowns = kLevels + kChannels * kLevelsOfPicture;
+
+// Photo-electrons of sRGB values (IEC 61966-2-1).
+cv::Mat1f Decoded(const cv::Mat3b& color, int channel, double full_scale_e) {
+  cv::Mat1f linear(1, 256);
+  for (int i = 0; i < 256; ++i) {
+    const double v = i / 255.0;
+    const double x = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+    linear(i) = static_cast<float>(full_scale_e * x);
+  }
+  cv::Mat1b values;
+  cv::extractChannel(color, values, channel);
+  cv::Mat1f electrons;
+  cv::LUT(values, linear, electrons);
+  return electrons;
+}
+
+}  // namespace
+
+std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
+                                               const RgbdCalibration& cameras,
+                                               const ColorCameraOptions& options,
+                                               const cv::Mat3b& color, const DepthMatrix& depth) {
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  information.topLeftCorner<kDepthUnknowns, kDepthUnknowns>() = depth;
+  const PixelNoise noise = PixelNoise::Encoded(options.sensor, {.exposure_s = 0.0, .gain = 1.0});
+  const std::array<double, kChannels> blur = {options.blue_blur, 1.0, options.red_blur};
+  for (int channel = 0; channel < kChannels; ++channel) {
+    const double scale = blur[static_cast<size_t>(channel)];
+    const cv::Mat1f electrons = Decoded(color, channel, noise.full_scale_e());
+    const PictureView view{.camera = cameras.color,
+                           .X_VC = cameras.X_KD,
+                           .electrons = electrons,
+                           .noise = noise,
+                           .spread = {.centre_sigma_px = scale * options.lens.blur_sigma_px,
+                                      .corner_sigma_px = scale * options.lens.corner_blur_sigma_px},
+                           .blur_unknown = kBlurs + channel,
+                           .level_unknown = kLevels + channel * kLevelsOfPicture};
+    const auto picture = PictureInformation(frame, view, kUnknowns);
+    if (!picture) return std::nullopt;
+    information += *picture;
+  }
+  return information;
+}
+
+std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
+                                         const Knowledge& knowledge) {
+  Eigen::MatrixXd known = WithSizePrior(information, knowledge);
+  if (knowledge.wall_sigma_m) {
+    known(kWallUnknown, kWallUnknown) += 1.0 / (*knowledge.wall_sigma_m * *knowledge.wall_sigma_m);
+  } else {
+    known = WithKnown(known, kWallUnknown, 1);
+  }
+  const auto bound = CramerRaoBound(known, kCentroidUnknowns);
+  return bound ? std::optional<Eigen::Matrix3d>(*bound) : std::nullopt;
+}
+
+}  // namespace fenestra
