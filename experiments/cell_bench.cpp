@@ -133,6 +133,16 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
   return {std::move(record), std::move(log)};
 }
 
+std::optional<DepthFrame> CellBench::DepthOf(const SimulatedTrial& simulated) const {
+  const auto instrument = InstrumentOf(simulated.trial);
+  const auto* sensor = std::get_if<StructuredLightSensor>(&instrument->sensor);
+  if (sensor == nullptr) return std::nullopt;
+  const TrialSettings& settings = simulated.trial.settings;
+  const auto world = WorldOf(settings);
+  return sensor->ObserveDepth(world->caster, settings.lighting, RigPoseOf(settings, world->scene),
+                              simulated.trial.stream.Child("shot"));
+}
+
 TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {
   const TrialSettings& settings = simulated.trial.settings;
   const auto world = WorldOf(settings);

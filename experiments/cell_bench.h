@@ -55,6 +55,9 @@ class CellBench {
 
   /// Per-pixel truth of the left (stereo) or depth camera.
   TruthImages TruthOf(const SimulatedTrial& simulated) const;
+  /// The depth image with what detectors never see of it: why pixels have no return, and the
+  /// infra-red image if there is one. nullopt for stereo.
+  std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const;
 
  private:
   /// A scene and its ray tracing structures; fixed in memory.

@@ -9,9 +9,9 @@
 
 namespace fenestra {
 
-/// What is published of a structured-light sensor's depth, measured anew on simulated walls: the
-/// middle half of the image, wall lit by a sky alone. Depth noise is around the plane that fits
-/// best; it has the fixed pattern, the temporal noise and the quantisation in it.
+/// What is published of a structured-light sensor's depth, measured anew on simulated walls: in the
+/// middle half of the image. Depth noise is around the plane that fits best; it has the fixed
+/// pattern, the temporal noise and the quantisation in it.
 struct DepthCurves {
   struct Distance {
     double z_m;
@@ -24,8 +24,20 @@ struct DepthCurves {
     double residual_m;  ///< At 1.5 m.
     double valid;
   };
+  /// Of an upright border: a plate at 1.5 m, 0.8 m before a wall, turned about its middle.
+  struct Lateral {
+    double angle_rad;
+    double left_px;  ///< RMS around the line that fits best, in a 640-wide image.
+    double right_px;
+  };
+  /// Between depths that occur.
+  struct Step {
+    double z_m;
+    double open_ni_m;
+    double microsoft_m;
+  };
   struct Ambient {
-    double lux;  ///< Of the sky on level ground; a wall gets six tenths of it.
+    double wall_lx;  ///< Of daylight on the wall.
     double z_m;
     double valid;
   };
@@ -34,22 +46,32 @@ struct DepthCurves {
     double z_m;
     double valid;
   };
+  /// Pixels without a return in rows across a plate, left and right of its middle; of a 640-wide
+  /// image. Means over six plates.
+  struct Shadow {
+    double plate_m;
+    double wall_m;
+    double left_px;
+    double right_px;
+  };
   std::vector<Distance> by_distance;
   std::vector<Incidence> by_incidence;
+  std::vector<Lateral> lateral;
+  std::vector<Step> steps;
   std::vector<Ambient> by_ambient;
   std::vector<Paint> by_paint;
+  std::vector<Shadow> shadows;
 };
 
 DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const RandomStream& stream);
 
-/// Published curves. Khoshelham & Elberink 2012: 1.425e-3 z² [m].
-double KhoshelhamSigma(double z_m);
-/// Nguyen, Izadi & Lovell 2012: 0.0012 + 0.0019 (z - 0.4)² up to 60°, and beyond
-/// 0.0001/√z θ²/(π/2 - θ)² more [m].
-double NguyenSigma(double z_m, double angle_rad);
+/// Where the share of valid pixels falls through one half, between the samples on either side, in
+/// proportion of x's logarithm; NaN if it does not.
+double HalfPoint(const std::vector<cv::Point2d>& x_and_share);
 
-/// The models' curves side by side, with the published ones.
-std::string DepthCurvesMarkdown(const DepthCurves& parametric, const DepthCurves& speckle);
+/// Both models' curves side by side, with what is published and what is predicted.
+std::string DepthCurvesMarkdown(const StructuredLightOptions& options,
+                                const DepthCurves& parametric, const DepthCurves& speckle);
 cv::Mat3b DepthCurvesPicture(const DepthCurves& parametric, const DepthCurves& speckle);
 
 }  // namespace fenestra

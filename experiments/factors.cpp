@@ -1,5 +1,6 @@
 #include "experiments/factors.h"
 
+#include <array>
 #include <numbers>
 
 #include "core/check.h"
@@ -101,6 +102,33 @@ void AddStereoCameras(Table& t) {
           "Rays through a pixel with more in it than one edge: 16, 64 or 256; 4: as elsewhere.");
 }
 
+void AddMotion(Table& t, const std::string& sensor, RigMotion& (*of)(TrialSettings&)) {
+  const std::array<const char*, 3> directions = {"right", "down", "forward"};
+  for (size_t axis = 0; axis < directions.size(); ++axis) {
+    t.Number(
+        sensor + "_speed_" + directions[axis] + "_m_s",
+        [of, axis](TrialSettings& s) -> double& {
+          return of(s).velocity_B[static_cast<int>(axis)];
+        },
+        {-100.0, 100.0}, "Of the rig, along its own axis.");
+  }
+  struct Turn {
+    const char* name;
+    const char* description;
+  };
+  const std::array<Turn, 3> turns = {Turn{"pitch", "Turn of the rig upwards."},
+                                     Turn{"yaw", "Turn of the rig to the right."},
+                                     Turn{"roll", "Turn of the rig clockwise."}};
+  for (size_t axis = 0; axis < turns.size(); ++axis) {
+    t.Number(
+        sensor + "_" + turns[axis].name + "_rate_deg_s",
+        [of, axis](TrialSettings& s) -> double& {
+          return of(s).angular_velocity_B[static_cast<int>(axis)];
+        },
+        {-2000.0, 2000.0, kDegree}, turns[axis].description);
+  }
+}
+
 void AddStereoRig(Table& t) {
   t.Switch("stereo_rig_per_trial", FIELD(stereo_rig_per_trial),
            "Whether each trial has a rig of its own, within the tolerances; false: all share one.")
@@ -135,21 +163,10 @@ void AddStereoRig(Table& t) {
               "With a perturbed calibration: between the cameras, standard deviation per axis.")
       .Number("stereo_calibration_translation_error_mm",
               FIELD(stereo_calibration.translation_error_m), {0.0, 50.0, kMilli},
-              "With a perturbed calibration: between the cameras, standard deviation per axis.")
-      .Number("stereo_speed_right_m_s", FIELD(stereo.motion.velocity_B.x()), {-100.0, 100.0},
-              "Of the rig, along its own axis.")
-      .Number("stereo_speed_down_m_s", FIELD(stereo.motion.velocity_B.y()), {-100.0, 100.0},
-              "Of the rig, along its own axis.")
-      .Number("stereo_speed_forward_m_s", FIELD(stereo.motion.velocity_B.z()), {-100.0, 100.0},
-              "Of the rig, along its own axis.")
-      .Number("stereo_pitch_rate_deg_s", FIELD(stereo.motion.angular_velocity_B.x()),
-              {-2000.0, 2000.0, kDegree}, "Turn of the rig upwards.")
-      .Number("stereo_yaw_rate_deg_s", FIELD(stereo.motion.angular_velocity_B.y()),
-              {-2000.0, 2000.0, kDegree}, "Turn of the rig to the right.")
-      .Number("stereo_roll_rate_deg_s", FIELD(stereo.motion.angular_velocity_B.z()),
-              {-2000.0, 2000.0, kDegree}, "Turn of the rig clockwise.")
-      .Number("stereo_trigger_skew_us", FIELD(stereo.trigger_skew_s), {-1e6, 1e6, kMicro},
-              "By how much the right camera's exposure is later.");
+              "With a perturbed calibration: between the cameras, standard deviation per axis.");
+  AddMotion(t, "stereo", FIELD(stereo.motion));
+  t.Number("stereo_trigger_skew_us", FIELD(stereo.trigger_skew_s), {-1e6, 1e6, kMicro},
+           "By how much the right camera's exposure is later.");
 }
 
 void AddStereoImages(Table& t) {
@@ -270,6 +287,14 @@ void AddRgbdDepth(Table& t) {
               "Disparities that are tried, in a 640-wide image; speckle only.");
 }
 
+void AddRgbdMotion(Table& t) {
+  AddMotion(t, "rgbd", FIELD(rgbd.motion));
+  t.Number("rgbd_infrared_readout_ms", FIELD(rgbd.infrared_readout_s), {0.0, 1000.0, kMilli},
+           "Rolling shutter of the depth camera, from the first row to the last; 0: none.")
+      .Number("rgbd_color_readout_ms", FIELD(rgbd.color.readout_s), {0.0, 1000.0, kMilli},
+              "The same of the colour camera.");
+}
+
 void AddRgbdColor(Table& t) {
   t.Integer("rgbd_color_width_px", FIELD(rgbd.color.width_px), {64, 4096}, "Of the colour image.")
       .Integer("rgbd_color_height_px", FIELD(rgbd.color.height_px), {64, 4096},
@@ -338,6 +363,7 @@ const GroupedTable& AllFactors() {
     factors.Add(FactorGroup::kStereo, AddStereoSensor);
     factors.Add(FactorGroup::kRgbd, AddRgbdDepth);
     factors.Add(FactorGroup::kRgbd, AddRgbdColor);
+    factors.Add(FactorGroup::kRgbd, AddRgbdMotion);
     return factors;
   }();
   return all;

@@ -1,7 +1,10 @@
 #include "experiments/trial_drawing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "sim/depth_frame.h"
 
 namespace fenestra {
 namespace {
@@ -97,6 +100,38 @@ cv::Mat3b DrawDepth(const DepthImage& depth) {
   cv::applyColorMap(scaled, colored, cv::COLORMAP_TURBO);
   colored.setTo(cv::Scalar::all(0), depth.raw == 0);
   return colored;
+}
+
+cv::Mat3b DrawNoReturn(const cv::Mat1b& no_return) {
+  const auto color_of = [](NoReturn reason) -> cv::Vec3b {  // B, G, R.
+    switch (reason) {
+      case NoReturn::kNone:
+        return {255, 255, 255};
+      case NoReturn::kNoSurface:
+        return {0, 0, 0};
+      case NoReturn::kRange:
+        return {128, 128, 128};
+      case NoReturn::kShadow:
+        return {178, 114, 0};  // Blue.
+      case NoReturn::kGrazing:
+        return {167, 121, 204};  // Pink.
+      case NoReturn::kDark:
+        return {0, 94, 213};  // Vermilion.
+      case NoReturn::kSaturated:
+        return {66, 228, 240};  // Yellow.
+      case NoReturn::kNoMatch:
+        return {115, 158, 0};  // Green.
+      case NoReturn::kBorder:
+        return {200, 200, 200};
+      case NoReturn::kNotRegistered:
+        return {233, 180, 86};  // Sky blue.
+    }
+    return {255, 0, 255};
+  };
+  cv::Mat3b picture(no_return.size());
+  std::transform(no_return.begin(), no_return.end(), picture.begin(),
+                 [&](unsigned char reason) { return color_of(static_cast<NoReturn>(reason)); });
+  return picture;
 }
 
 std::array<PictureView, 2> ObservationViews(const SensorCalibration& calibration) {

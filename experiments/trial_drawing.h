@@ -22,6 +22,10 @@ cv::Mat3b DrawTruthAndEstimate(const cv::Mat& image, std::span<const PictureView
 /// Depth in false colours, near red to far blue; no return is black.
 cv::Mat3b DrawDepth(const DepthImage& depth);
 
+/// Why pixels have no return (NoReturn), in colours; white: they have one. docs/structured_light.md
+/// has the legend.
+cv::Mat3b DrawNoReturn(const cv::Mat1b& no_return);
+
 /// The views of an observation's own images: of the left and the right image (stereo), of the
 /// colour and of the depth image (RGB-D), as the nominal calibration has them.
 std::array<PictureView, 2> ObservationViews(const SensorCalibration& calibration);

@@ -108,6 +108,14 @@ void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench
   const std::filesystem::path truth = folder / "truth";
   const TruthImages images = bench.TruthOf(simulated);
   const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
+  if (const std::optional<DepthFrame> depth = bench.DepthOf(simulated)) {
+    WritePng(truth / "no_return.png", DrawNoReturn(depth->no_return));
+    // Ten bits at the upper end of sixteen, so that a viewer shows them.
+    constexpr double kToSixteenBits = 64.0;
+    if (!depth->infrared.empty()) {
+      WritePng(truth / "infrared.png", cv::Mat1w(depth->infrared * kToSixteenBits));
+    }
+  }
   WriteFileAtomically(truth / "truth.json", TruthJson(simulated.truth, stereo ? "left" : "depth"));
   WriteTruthExr(truth / "truth.exr", images, stereo ? "right" : "projector");
   WriteFileAtomically(truth / "cloud.pcd", ToPcd(CloudOf(images.aovs.depth_m, images.camera)));

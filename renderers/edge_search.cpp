@@ -9,14 +9,30 @@ namespace {
 
 using Arriving = LightTransport::Arriving;
 
-constexpr int kProbes = 32;     // Samples all over the pixel,
-constexpr int kBorders = 4;     // and sixteen on each of its borders.
-constexpr int kBisections = 8;  // To 1/256 of a line.
+constexpr int kBorders = 4;
 // A probe nearer than this to the edge that the lines have found may be on either side of it.
 constexpr float kNear = 1.0f / 64.0f;
 
+// How an edge is searched: on so many lines, all of which a packet's lanes share.
+template <int lines>
+struct Search {
+  static constexpr int kLines = lines;
+  static constexpr int kPointsPerLine = kLanes / lines;  // Of one packet.
+};
+struct Fine : Search<16> {
+  static constexpr int kProbes = 32;  // Samples all over the pixel.
+  static constexpr int kSteps = 8;    // Halving a line each time: to 1/256.
+  static constexpr int kGrid = 256;
+};
+struct Quick : Search<4> {
+  static constexpr int kProbes = 16;
+  static constexpr int kSteps = 3;  // To a fifth each time.
+  static constexpr int kGrid = 125;
+};
+
+template <typename How>
 float LineAt(int line) {
-  return (static_cast<float>(line) + 0.5f) / static_cast<float>(kLanes);
+  return (static_cast<float>(line) + 0.5f) / static_cast<float>(How::kLines);
 }
 
 // Everything that was seen in a pixel, with its place.
@@ -35,8 +51,11 @@ struct Thing {
   std::array<float, LightTransport::kMostChannels> radiance_sum{};
 };
 
+template <typename How>
 class EdgeSearch {
  public:
+  static constexpr int kLines = How::kLines;
+
   EdgeSearch(const PixelSampler& sampler, Film::Pixel pixel)
       : sampler_(sampler), pixel_(pixel), patch_(sampler.PatchOf(pixel)) {}
 
@@ -59,6 +78,9 @@ class EdgeSearch {
   }
 
  private:
+  using Keys = std::array<uint32_t, kLines>;  // Of each line's beginning or end.
+  using Places = std::array<float, kLines>;   // On each line.
+
   // Notes what a packet has seen; false if it is a third thing.
   bool Note(const PixelPoints& points, const Arriving& arriving) {
     for (int i = 0; i < kLanes; ++i) {
@@ -82,32 +104,38 @@ class EdgeSearch {
   }
 
   bool LookInside() {
-    for (int first = 0; first < kProbes; first += kLanes) {
+    for (int first = 0; first < How::kProbes; first += kLanes) {
       const PixelPoints points = sampler_.SamplePoints(pixel_, first);
       if (!Note(points, sampler_.Trace(patch_, points))) return false;
     }
     return true;
   }
 
+  // The ends of all lines, those along s and those along t.
   bool LookAtBorders() {
-    for (int border = 0; border < kBorders; ++border) {
+    for (int first = 0; first < kBorders * kLines; first += kLanes) {
       PixelPoints points;
       for (int i = 0; i < kLanes; ++i) {
+        const int border = (first + i) / kLines;
+        const float line = LineAt<How>((first + i) % kLines);
         const float end = border % 2 == 0 ? 0.0f : 1.0f;
-        points.s[i] = border < 2 ? end : LineAt(i);
-        points.t[i] = border < 2 ? LineAt(i) : end;
+        points.s[i] = border < 2 ? end : line;
+        points.t[i] = border < 2 ? line : end;
       }
       const Arriving arriving = sampler_.Trace(patch_, points);
-      border_keys_[static_cast<size_t>(border)] = arriving.key;
+      for (int i = 0; i < kLanes; ++i) {
+        border_keys_[static_cast<size_t>((first + i) / kLines)]
+                    [static_cast<size_t>((first + i) % kLines)] = arriving.key[i];
+      }
       if (!Note(points, arriving)) return false;
     }
     return true;
   }
 
   // Which thing comes first along the lines; false if that is not the same on all lines.
-  bool Orient(const Lanes<uint32_t>& begins, const Lanes<uint32_t>& ends) {
+  bool Orient(const Keys& begins, const Keys& ends) {
     bool crossed = false;
-    for (int i = 0; i < kLanes; ++i) {
+    for (size_t i = 0; i < kLines; ++i) {
       if (begins[i] == ends[i]) continue;
       if (crossed && begins[i] != first_) return false;
       first_ = begins[i];
@@ -116,39 +144,65 @@ class EdgeSearch {
     return crossed;
   }
 
+  // Where the lines are cut, in which interval of each.
+  struct Cuts {
+    Places low;
+    Places high;
+  };
+
   bool Bisect() {
-    const Lanes<uint32_t>& begins = border_keys_[along_s_ ? 0 : 2];
-    const Lanes<uint32_t>& ends = border_keys_[along_s_ ? 1 : 3];
+    const Keys& begins = border_keys_[along_s_ ? 0 : 2];
+    const Keys& ends = border_keys_[along_s_ ? 1 : 3];
     if (!Orient(begins, ends)) return false;
-    // The points that bisection tries lie on a grid; shifted at random on each line, it leaves
+    // The points that the search tries lie on a grid; shifted at random on each line, it leaves
     // errors that are independent and without bias.
-    constexpr float kStep = 1.0f / ((1 << kBisections) - 1);
+    constexpr float kStep = 1.0f / (How::kGrid - 1);
     const uint32_t seed = sampler_.SeedsOf(pixel_).x;
-    Lanes<float> low;
-    Lanes<float> high;
-    for (int i = 0; i < kLanes; ++i) {
-      low[i] = -kStep * ToUnit(Hashed(seed + static_cast<uint32_t>(i)));
-      high[i] = low[i] + 1.0f + kStep;
+    Cuts cuts;
+    for (size_t i = 0; i < kLines; ++i) {
+      cuts.low[i] = -kStep * ToUnit(Hashed(seed + static_cast<uint32_t>(i)));
+      cuts.high[i] = cuts.low[i] + 1.0f + kStep;
     }
-    for (int step = 0; step < kBisections; ++step) {
-      PixelPoints points;
-      for (int i = 0; i < kLanes; ++i) {
-        const float middle = 0.5f * (low[i] + high[i]);
-        points.s[i] = along_s_ ? middle : LineAt(i);
-        points.t[i] = along_s_ ? LineAt(i) : middle;
-      }
-      const Arriving arriving = sampler_.Trace(patch_, points);
-      for (int i = 0; i < kLanes; ++i) {
-        const uint32_t key = arriving.key[i];
-        if (key != things_[0].key && key != things_[1].key) return false;
-        // On a line whose ends see the same nothing else may turn up.
-        if (begins[i] == ends[i] && key != begins[i]) return false;
-        (key == first_ ? low : high)[i] = 0.5f * (low[i] + high[i]);
-      }
+    for (int step = 0; step < How::kSteps; ++step) {
+      if (!Narrow(begins, ends, cuts)) return false;
     }
-    for (int i = 0; i < kLanes; ++i) {
-      edge_[i] = begins[i] != ends[i] ? std::clamp(0.5f * (low[i] + high[i]), 0.0f, 1.0f)
+    for (size_t i = 0; i < kLines; ++i) {
+      edge_[i] = begins[i] != ends[i] ? std::clamp(0.5f * (cuts.low[i] + cuts.high[i]), 0.0f, 1.0f)
                                       : (begins[i] == first_ ? 1.0f : 0.0f);
+    }
+    return true;
+  }
+
+  // Tries all points of a packet, in even intervals of each line; false if something else turns up
+  // or a line is crossed more than once.
+  bool Narrow(const Keys& begins, const Keys& ends, Cuts& cuts) {
+    constexpr int kPoints = How::kPointsPerLine;
+    Lanes<float> places;
+    PixelPoints points;
+    for (int i = 0; i < kLanes; ++i) {
+      const auto line = static_cast<size_t>(i / kPoints);
+      const float share = static_cast<float>(i % kPoints + 1) / static_cast<float>(kPoints + 1);
+      const float low = cuts.low[line];
+      // Halves are formed as a mean, which rounds alike on all lines.
+      places[i] =
+          kPoints == 1 ? 0.5f * (low + cuts.high[line]) : low + share * (cuts.high[line] - low);
+      points.s[i] = along_s_ ? places[i] : LineAt<How>(static_cast<int>(line));
+      points.t[i] = along_s_ ? LineAt<How>(static_cast<int>(line)) : places[i];
+    }
+    const Arriving arriving = sampler_.Trace(patch_, points);
+    for (int i = 0; i < kLanes; ++i) {
+      const auto line = static_cast<size_t>(i / kPoints);
+      const uint32_t key = arriving.key[i];
+      if (key != things_[0].key && key != things_[1].key) return false;
+      // On a line whose ends see the same nothing else may turn up.
+      if (begins[line] == ends[line] && key != begins[line]) return false;
+      if (key != first_) {
+        cuts.high[line] = std::min(cuts.high[line], places[i]);
+      } else if (places[i] < cuts.high[line]) {
+        cuts.low[line] = places[i];
+      } else {
+        return false;
+      }
     }
     return true;
   }
@@ -158,13 +212,13 @@ class EdgeSearch {
     for (size_t n = 0; n < sighting_count_; ++n) {
       const Sighting& seen = sightings_[n];
       const float along = along_s_ ? seen.s : seen.t;
-      const float across = (along_s_ ? seen.t : seen.s) * static_cast<float>(kLanes);
-      const int line = std::clamp(static_cast<int>(across), 0, kLanes - 1);
+      const float across = (along_s_ ? seen.t : seen.s) * static_cast<float>(kLines);
+      const int line = std::clamp(static_cast<int>(across), 0, kLines - 1);
       float nearest = 1.0f;
       float farthest = 0.0f;
-      for (int i = std::max(line - 1, 0); i <= std::min(line + 1, kLanes - 1); ++i) {
-        nearest = std::min(nearest, edge_[i]);
-        farthest = std::max(farthest, edge_[i]);
+      for (int i = std::max(line - 1, 0); i <= std::min(line + 1, kLines - 1); ++i) {
+        nearest = std::min(nearest, edge_[static_cast<size_t>(i)]);
+        farthest = std::max(farthest, edge_[static_cast<size_t>(i)]);
       }
       if (along < nearest - kNear && seen.key != first_) return false;
       if (along > farthest + kNear && seen.key == first_) return false;
@@ -176,15 +230,15 @@ class EdgeSearch {
 
   Areas AreasOfThing0() const {
     Areas areas{};
-    for (int i = 0; i < kLanes; ++i) {
-      const size_t across = i < kLanes / 2 ? 0 : 1;
+    for (size_t i = 0; i < kLines; ++i) {
+      const size_t across = i < kLines / 2 ? 0 : 1;
       for (const size_t along : {0u, 1u}) {
         const float covered = std::clamp(2.0f * edge_[i] - static_cast<float>(along), 0.0f, 1.0f);
         areas[along_s_ ? 2 * across + along : 2 * along + across] += covered;
       }
     }
     for (float& area : areas) {
-      area /= static_cast<float>(kLanes / 2);
+      area /= static_cast<float>(kLines / 2);
       if (first_ != things_[0].key) area = 1.0f - area;
     }
     return areas;
@@ -210,19 +264,20 @@ class EdgeSearch {
   PixelPatches patch_;
   std::array<Thing, 2> things_;
   size_t thing_count_ = 0;
-  std::array<Sighting, kProbes + kBorders * kLanes> sightings_;
+  std::array<Sighting, How::kProbes + kBorders * kLines> sightings_;
   size_t sighting_count_ = 0;
-  std::array<Lanes<uint32_t>, kBorders> border_keys_;  // Left, right, top, bottom.
+  std::array<Keys, kBorders> border_keys_;  // Left, right, top, bottom.
   bool along_s_ = true;
   uint32_t first_ = 0;  // The thing before the edge.
-  Lanes<float> edge_;   // Where each line meets the edge: 0 or 1 if it does not.
+  Places edge_;         // Where each line meets the edge: 0 or 1 if it does not.
 };
 
 }  // namespace
 
-std::optional<Film::QuarteredResult> SearchEdge(const PixelSampler& sampler, Film::Pixel pixel,
-                                                const Film::PixelResult& known) {
-  return EdgeSearch(sampler, pixel).Run(known);
+std::optional<Film::QuarteredResult> SearchEdge(EdgeLines lines, const PixelSampler& sampler,
+                                                Film::Pixel pixel, const Film::PixelResult& known) {
+  if (lines == EdgeLines::kFour) return EdgeSearch<Quick>(sampler, pixel).Run(known);
+  return EdgeSearch<Fine>(sampler, pixel).Run(known);
 }
 
 }  // namespace fenestra

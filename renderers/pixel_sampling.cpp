@@ -12,11 +12,12 @@
 namespace fenestra {
 namespace {
 
-void SampleEdgePixel(const PixelSampler& sampler, int samples, Film::Pixel pixel, Film& film) {
-  if (const auto found = SearchEdge(sampler, pixel, film.At(pixel))) {
+void SampleEdgePixel(const PixelSampler& sampler, const RenderOptions& options, Film::Pixel pixel,
+                     Film& film) {
+  if (const auto found = SearchEdge(options.edge_lines, sampler, pixel, film.At(pixel))) {
     film.Set(pixel, *found);
   } else {
-    film.Set(pixel, sampler.SampleQuarters(pixel, samples));
+    film.Set(pixel, sampler.SampleQuarters(pixel, options.edge_samples_per_pixel));
   }
 }
 
@@ -64,7 +65,7 @@ Film SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPo
     for (int row = 0; row < size.height; ++row) {
       for (int column = 0; column < size.width; ++column) {
         if (edges(row, column) == 0) continue;
-        SampleEdgePixel(sampler, options.edge_samples_per_pixel, {column, row}, film);
+        SampleEdgePixel(sampler, options, {column, row}, film);
       }
     }
   }

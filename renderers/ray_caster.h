@@ -22,14 +22,21 @@ enum class Band {
   kInfrared,   ///< One channel, spectral radiance at 830 nm [W/(m² sr nm)].
 };
 
+/// On how many lines across a pixel its edge is searched.
+enum class EdgeLines {
+  kSixteen,  ///< A straight edge is placed to 0.0015 px RMS in each row.
+  kFour,     ///< To 0.006 px, with a third of the rays.
+};
+
 struct RenderOptions {
   Band band = Band::kLuminance;
   /// Samples of every pixel: 1, 4, 16, 64 or 256.
   int samples_per_pixel = 4;
   /// If this is more than samples_per_pixel, edges (of an object or a shadow) are searched for in
-  /// the pixels that they cross, which places them to 0.0015 px RMS in each row; and this many
+  /// the pixels that they cross (see EdgeLines); and this many
   /// samples go to pixels with more in them than one edge: 256 place edges there to about 0.006 px.
   int edge_samples_per_pixel = 256;
+  EdgeLines edge_lines = EdgeLines::kSixteen;
 };
 
 /// Four images of one size, of the quarters of their pixels: upper left, upper right, lower left,

@@ -3,6 +3,10 @@
 
 #include <benchmark/benchmark.h>
 
+#include <vector>
+
+#include "renderers/lane_kernels.h"
+#include "renderers/traced_scene.h"
 #include "scenes/facade.h"
 #include "sim/image_sensor.h"
 #include "sim/lens.h"
@@ -93,6 +97,105 @@ void BM_RgbdFrame(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_RgbdFrame)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+struct FacadeView {
+  RayCaster caster = RayCaster(MakeFacade({}));
+  Lighting lighting;
+  Pose X_WB = RigPose({.distance_m = 2.0}, Pose());
+
+  FacadeView() { lighting.sky.illuminance_lx = 1000.0; }
+};
+
+// The light of the colour frame alone. Arguments: samples per pixel, samples in pixels with edges
+// (as many: edges are not searched), lines on which edges are searched.
+void BM_ColorLight(benchmark::State& state) {
+  const FacadeView view;
+  const RayGrid rays(DesignOf(ColorCameraOptions{}));
+  const RenderOptions options{
+      .band = Band::kRgb,
+      .samples_per_pixel = static_cast<int>(state.range(0)),
+      .edge_samples_per_pixel = static_cast<int>(state.range(1)),
+      .edge_lines = state.range(2) == 4 ? EdgeLines::kFour : EdgeLines::kSixteen};
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        view.caster.RenderQuarters(rays, view.X_WB, view.lighting, options, RandomStream(3)));
+  }
+}
+BENCHMARK(BM_ColorLight)
+    ->ArgNames({"samples", "edge", "lines"})
+    ->Args({4, 4, 4})
+    ->Args({4, 64, 16})
+    ->Args({4, 64, 4})
+    ->Args({1, 1, 4})
+    ->Args({1, 64, 4})
+    ->Unit(benchmark::kMillisecond);
+
+// One ray through each pixel's centre, in blocks of 4 x 4.
+std::vector<RayPacket> PacketsOf(const CameraModel& model, const Pose& X_WC) {
+  const RayGrid rays(model);
+  const FloatPose camera = ToFloat(X_WC);
+  const auto stride = static_cast<uint32_t>(rays.width_px() + 1);
+  PixelPoints centres;
+  centres.s.v.fill(0.5f);
+  centres.t.v.fill(0.5f);
+  std::vector<RayPacket> packets;
+  for (int row = 0; row < rays.height_px(); row += kBlockSide) {
+    for (int column = 0; column < rays.width_px(); column += kBlockSide) {
+      Lanes<uint32_t> corner;
+      for (int i = 0; i < kLanes; ++i) {
+        corner[i] = static_cast<uint32_t>(row + i / kBlockSide) * stride +
+                    static_cast<uint32_t>(column + i % kBlockSide);
+      }
+      const ImagePoints image = InPixels(PatchesOf(rays.corner_data(), corner, stride), centres);
+      SetRays(packets.emplace_back(), camera.p_WC, ToWorld(camera.axes, image.x, image.y));
+    }
+  }
+  return packets;
+}
+
+// Embree alone on one ray for each pixel of a colour frame and of a depth frame's camera, and on
+// one from where the latter end to the projector. Argument: the depth camera's width.
+void BM_BareRgbdRays(benchmark::State& state) {
+  const FacadeView view;
+  const TracedScene traced(MakeFacade({}));
+  const StructuredLightOptions options;
+  const int scale = static_cast<int>(state.range(0)) / options.depth_width_px;
+  std::vector<RayPacket> packets = PacketsOf(DesignOf(options.color), view.X_WB);
+  const std::vector<RayPacket> depth_packets = PacketsOf(
+      CameraModel::Pinhole(scale * options.depth_width_px, scale * options.depth_height_px,
+                           scale * options.depth_focal_px),
+      view.X_WB);
+  packets.insert(packets.end(), depth_packets.begin(), depth_packets.end());
+  const LaneMask all = FirstLanes(kLanes);
+  const Eigen::Vector3f p_WP =
+      (view.X_WB * Eigen::Vector3d(options.projector_baseline_m, 0.0, 0.0)).cast<float>();
+  std::vector<RTCRay16> to_projector;
+  for (RayPacket packet : depth_packets) {
+    traced.all_tracer().Intersect(all, packet, Coherence::kCoherent);
+    RTCRay16& rays = to_projector.emplace_back(RaysFromHits(packet, 1e-4f, glm::vec3(0.0f)));
+    for (int i = 0; i < kLanes; ++i) {
+      rays.dir_x[i] = p_WP.x() - rays.org_x[i];
+      rays.dir_y[i] = p_WP.y() - rays.org_y[i];
+      rays.dir_z[i] = p_WP.z() - rays.org_z[i];
+      rays.tfar[i] = 1.0f;
+    }
+  }
+  for (auto _ : state) {
+    for (const RayPacket& packet : packets) {
+      RayPacket seen = packet;
+      traced.all_tracer().Intersect(all, seen, Coherence::kCoherent);
+      benchmark::DoNotOptimize(seen);
+    }
+    for (const RTCRay16& rays : to_projector) {
+      RTCRay16 occluded = rays;
+      traced.opaque_tracer().Occlude(all, occluded, Coherence::kCoherent);
+      benchmark::DoNotOptimize(occluded);
+    }
+  }
+  state.SetItemsProcessed(state.iterations() * kLanes *
+                          static_cast<int64_t>(packets.size() + to_projector.size()));
+}
+BENCHMARK(BM_BareRgbdRays)->ArgName("width")->Arg(320)->Arg(640)->Unit(benchmark::kMillisecond);
 
 // The depth frame alone.
 void BM_DepthFrame(benchmark::State& state) {

@@ -7,6 +7,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/image_sensor.h"
 #include "sim/lens.h"
+#include "sim/rolling_shutter.h"
 
 namespace fenestra {
 
@@ -38,6 +39,12 @@ struct ColorCameraOptions {
   double mean_dn = 118.0;
   bool auto_exposure = true;
   double exposure_s = 8e-3;  ///< Used when not automatic.
+  /// Rolling shutter; assumed, as of the infra-red camera: 960 of 1049 rows' times in 1/30 s.
+  double readout_s = 30.5e-3;
+  /// Rays through each pixel without an edge in it, and how edges are searched: coarser than for
+  /// the stereo rig, by less than a third of the noise.
+  int samples_per_pixel = 1;
+  EdgeLines edge_lines = EdgeLines::kFour;
 };
 
 CameraModel DesignOf(const ColorCameraOptions& options);
@@ -48,11 +55,13 @@ void Validate(const ColorCameraOptions& options);
 /// From radiance in three channels over lens, exposure and noise to sRGB.
 class ColorCamera {
  public:
-  /// edge_samples_per_pixel: see RenderOptions.
-  ColorCamera(const ColorCameraOptions& options, int edge_samples_per_pixel);
+  /// X_BK: the camera on a rig that moves so; edge_samples_per_pixel: see RenderOptions.
+  ColorCamera(const ColorCameraOptions& options, const Pose& X_BK, const RigMotion& motion,
+              int edge_samples_per_pixel);
 
-  /// B, G, R.
-  cv::Mat3b Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WK,
+  /// B, G, R. X_WB: of the rig, in the middle of the image's exposure. Rows are exposed one after
+  /// the other, and what moves meanwhile is blurred.
+  cv::Mat3b Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                     const RandomStream& shot) const;
 
  private:
@@ -61,7 +70,15 @@ class ColorCamera {
   cv::Mat1b Develop(const cv::Mat1f& electrons_per_s, double exposure_s,
                     const RandomStream& frame) const;
 
+  /// Luminance on the sensor, averaged over each row's exposure.
+  QuarterImages LightDuring(double exposure_s, const RayCaster& caster, const Lighting& lighting,
+                            const Pose& X_WB, const RandomStream& sampling) const;
+  /// B, G, R, of luminance.
+  std::array<cv::Mat1f, 3> ElectronsPerSecond(const QuarterImages& luminance) const;
+
   ColorCameraOptions options_;
+  Pose X_BK_;
+  RollingShutter shutter_;
   int edge_samples_per_pixel_;
   RayGrid rays_;
   cv::Mat1f illumination_;

@@ -25,6 +25,9 @@ enum class NoReturn : unsigned char {
 struct DepthFrame {
   DepthImage depth;
   cv::Mat1b no_return;  ///< NoReturn.
+  /// What SpeckleDepth matched: the infra-red image, 10 bits; empty for formulae. Of several frames
+  /// the last one's.
+  cv::Mat1w infrared = {};
 };
 
 }  // namespace fenestra

@@ -13,7 +13,8 @@ DepthFrame DepthRegistrar::Register(const DepthFrame& frame, const RayCaster& ca
   const DepthCarrier::Carried carried = carrier_.Carry(frame.depth);
   const cv::Mat1f true_m = caster.CastAovs(rays_, X_WK, lighting, {}).depth_m;
   DepthFrame result{.depth = {.raw = cv::Mat1w(true_m.size()), .unit_m = frame.depth.unit_m},
-                    .no_return = cv::Mat1b(true_m.size())};
+                    .no_return = cv::Mat1b(true_m.size()),
+                    .infrared = frame.infrared};
   for (int v = 0; v < true_m.rows; ++v) {
     for (int u = 0; u < true_m.cols; ++u) {
       const double z_m = static_cast<double>(carried.depth_m(v, u));

@@ -9,7 +9,7 @@ namespace {
 // An offset may be of 64 pixels: in an image that is no wider, every place is within reach.
 constexpr int kFewColumns = 64;
 constexpr int kFewRows = 48;
-constexpr size_t kPixelsAtOnce = kFewColumns * kFewRows / PixelParts::kPerPixel;
+constexpr std::ptrdiff_t kPixelsAtOnce = kFewColumns * kFewRows / PixelParts::kPerPixel;
 
 constexpr double kJump_px = 0.25;
 
@@ -34,8 +34,8 @@ Eigen::Vector2d PixelParts::OffsetOf(int part) {
   return {(part + 0.5) / kPerPixel - 0.5, (reversed + 0.5) / kPerPixel - 0.5};
 }
 
-InfraredRays::InfraredRays(const CameraModel& camera)
-    : rays_(camera), few_rays_(WithFewPixels(camera)) {}
+InfraredRays::InfraredRays(const CameraModel& camera, const RollingShutter& shutter)
+    : rays_(camera, shutter), few_rays_(WithFewPixels(camera)) {}
 
 Eigen::Vector3d InfraredRays::RayAt(double u_px, double v_px) const {
   const CameraParameters& k = camera().parameters();
@@ -44,17 +44,20 @@ Eigen::Vector3d InfraredRays::RayAt(double u_px, double v_px) const {
 
 InfraredView InfraredRays::Cast(const RayCaster& caster, const Pose& X_WC, const Lighting& lighting,
                                 const Eigen::Vector3d& p_CP) const {
-  const Eigen::Vector3d p_WP = X_WC * p_CP;
-  InfraredView view{
-      .aovs = caster.CastAovs(rays_, X_WC, lighting, {.offsets_px = {}, .p_WP = p_WP}),
-      .parts = {}};
+  InfraredView view{.aovs = rays_.CastAovs(caster, X_WC, lighting, p_CP), .parts = {}};
   const std::vector<cv::Point> crossed =
       CrossedPixels(view.aovs, camera().parameters().fx_px * p_CP.norm());
-  for (size_t i = 0; i < crossed.size(); i += kPixelsAtOnce) {
-    const auto first = crossed.begin() + static_cast<std::ptrdiff_t>(i);
-    const size_t count = std::min(kPixelsAtOnce, crossed.size() - i);
-    view.parts.push_back(CastParts(caster, X_WC, lighting, p_WP,
-                                   {first, first + static_cast<std::ptrdiff_t>(count)}));
+  auto next = crossed.begin();
+  for (const RowBand& band : rays_.row_bands()) {
+    const auto end = std::find_if(next, crossed.end(), [&](const cv::Point& pixel) {
+      return pixel.y >= band.first + band.count;
+    });
+    const Pose X_WCv = rays_.PoseIn(band, X_WC);
+    while (next != end) {
+      const auto count = std::min<std::ptrdiff_t>(kPixelsAtOnce, end - next);
+      view.parts.push_back(CastParts(caster, X_WCv, lighting, X_WCv * p_CP, {next, next + count}));
+      next += count;
+    }
   }
   return view;
 }
@@ -62,8 +65,8 @@ InfraredView InfraredRays::Cast(const RayCaster& caster, const Pose& X_WC, const
 PixelParts InfraredRays::CastParts(const RayCaster& caster, const Pose& X_WC,
                                    const Lighting& lighting, const Eigen::Vector3d& p_WP,
                                    std::vector<cv::Point> pixels) const {
-  const double s = static_cast<double>(kFewColumns) / rays_.width_px();
-  const double t = static_cast<double>(kFewRows) / rays_.height_px();
+  const double s = static_cast<double>(kFewColumns) / camera().width_px();
+  const double t = static_cast<double>(kFewRows) / camera().height_px();
   PixelParts parts{.pixels = std::move(pixels), .aovs = {}};
   AovOptions options{.offsets_px = cv::Mat2f(kFewRows, kFewColumns, cv::Vec2f(0.0f, 0.0f)),
                      .p_WP = p_WP};

@@ -7,6 +7,7 @@
 #include "core/camera_model.h"
 #include "renderers/ray_caster.h"
 #include "renderers/ray_grid.h"
+#include "sim/moving_rays.h"
 
 namespace fenestra {
 
@@ -34,14 +35,15 @@ struct InfraredView {
   std::vector<PixelParts> parts;
 };
 
-/// Casts the rays of an infra-red camera. Frame C: the camera; p_CP: the projector.
+/// Casts the rays of an infra-red camera, which is the rig's frame. Frame C: the camera; p_CP: the
+/// projector. X_WC: in the middle of the image, if the rig moves.
 class InfraredRays {
  public:
   /// `camera`: without distortion.
-  explicit InfraredRays(const CameraModel& camera);
+  explicit InfraredRays(const CameraModel& camera, const RollingShutter& shutter = {});
 
   const CameraModel& camera() const { return rays_.camera(); }
-  cv::Size size() const { return {rays_.width_px(), rays_.height_px()}; }
+  cv::Size size() const { return {camera().width_px(), camera().height_px()}; }
   /// Through any place of the image, z = 1.
   Eigen::Vector3d RayAt(double u_px, double v_px) const;
 
@@ -52,7 +54,7 @@ class InfraredRays {
   PixelParts CastParts(const RayCaster& caster, const Pose& X_WC, const Lighting& lighting,
                        const Eigen::Vector3d& p_WP, std::vector<cv::Point> pixels) const;
 
-  RayGrid rays_;
+  MovingRays rays_;
   /// The same camera with so few pixels that offsets take its rays to any place of the image.
   RayGrid few_rays_;
 };

@@ -66,12 +66,17 @@ FENESTRA_WIDE void AddScaled(const float* in, float weight, float* sum, int coun
   for (int i = 0; i < count; ++i) sum[i] += weight * in[i];
 }
 
+// Floats in a row.
+int WidthOf(const cv::Mat& image) {
+  return image.cols * image.channels();
+}
+
 // The column of quarters on one side of the pixels' centres, of one row of pixels: weighted over
-// the rows around it, and replicated by `reach` at both ends.
+// the rows around it, and replicated by `reach` pixels at both ends.
 void GatherColumn(const cv::Mat& upper, const cv::Mat& lower, const HalfTaps& taps, int row,
                   std::vector<float>& gathered) {
   std::fill(gathered.begin(), gathered.end(), 0.0f);
-  float* inside = gathered.data() + taps.reach;
+  float* inside = gathered.data() + taps.reach * upper.channels();
   for (int k = -taps.reach; k <= taps.reach; ++k) {
     const auto tap = static_cast<size_t>(k + taps.reach);
     const int from = row + k;
@@ -79,34 +84,42 @@ void GatherColumn(const cv::Mat& upper, const cv::Mat& lower, const HalfTaps& ta
     const cv::Mat& above = from >= upper.rows ? lower : upper;
     const cv::Mat& below = from < 0 ? upper : lower;
     const int inner = std::clamp(from, 0, upper.rows - 1);
-    AddScaled(above.ptr<float>(inner), taps.before[tap], inside, upper.cols);
-    AddScaled(below.ptr<float>(inner), taps.after[tap], inside, upper.cols);
+    AddScaled(above.ptr<float>(inner), taps.before[tap], inside, WidthOf(upper));
+    AddScaled(below.ptr<float>(inner), taps.after[tap], inside, WidthOf(upper));
   }
 }
 
-void Replicate(std::vector<float>& row, int reach, float first, float last) {
-  std::fill_n(row.begin(), reach, first);
-  std::fill_n(row.end() - reach, reach, last);
+// Repeats the pixel `first` before it and `last` behind it, `reach` times.
+void Replicate(std::vector<float>& row, int reach, int channels, const float* first,
+               const float* last) {
+  const auto ends = static_cast<std::ptrdiff_t>(reach * channels);
+  for (std::ptrdiff_t i = 0; i < ends; ++i) {
+    row[static_cast<size_t>(i)] = first[i % channels];
+    *(row.end() - ends + i) = last[i % channels];
+  }
 }
 
 // One kernel over all quarters around each pixel.
-cv::Mat1f GatherQuarters(const QuarterImages& quarters, const HalfTaps& taps) {
+cv::Mat GatherQuarters(const QuarterImages& quarters, const HalfTaps& taps) {
   const auto& [upper_left, upper_right, lower_left, lower_right] = quarters;
-  cv::Mat1f pixels = cv::Mat1f::zeros(upper_left.size());
-  const int width = pixels.cols;
-  std::vector<float> left(static_cast<size_t>(width + 2 * taps.reach));
+  cv::Mat pixels = cv::Mat::zeros(upper_left.size(), upper_left.type());
+  const int channels = pixels.channels();
+  const int width = WidthOf(pixels);
+  std::vector<float> left(static_cast<size_t>(width + 2 * taps.reach * channels));
   std::vector<float> right(left.size());
+  std::vector<float> first(static_cast<size_t>(channels));
+  std::vector<float> last(first.size());
   for (int row = 0; row < pixels.rows; ++row) {
     GatherColumn(upper_left, lower_left, taps, row, left);
     GatherColumn(upper_right, lower_right, taps, row, right);
-    const float first = left[static_cast<size_t>(taps.reach)];
-    const float last = right[static_cast<size_t>(taps.reach + width - 1)];
-    Replicate(left, taps.reach, first, last);
-    Replicate(right, taps.reach, first, last);
+    std::copy_n(left.begin() + taps.reach * channels, channels, first.begin());
+    std::copy_n(right.end() - (taps.reach + 1) * channels, channels, last.begin());
+    Replicate(left, taps.reach, channels, first.data(), last.data());
+    Replicate(right, taps.reach, channels, first.data(), last.data());
     for (int k = 0; k <= 2 * taps.reach; ++k) {
       const auto tap = static_cast<size_t>(k);
-      AddScaled(left.data() + k, taps.before[tap], pixels[row], width);
-      AddScaled(right.data() + k, taps.after[tap], pixels[row], width);
+      AddScaled(left.data() + k * channels, taps.before[tap], pixels.ptr<float>(row), width);
+      AddScaled(right.data() + k * channels, taps.after[tap], pixels.ptr<float>(row), width);
     }
   }
   return pixels;
@@ -118,51 +131,53 @@ double SquaredCornerDistance(cv::Size size) {
                  static_cast<double>(size.height) * size.height);
 }
 
-// What a three-tap kernel does at each pixel of a row: variance a + b x², x from the centre.
-struct RowVariance {
-  float a;
-  float b;
-  float centre;
-};
+// Half the variance of a three-tap kernel at each float of a row, b ρ² of the whole image's.
+std::vector<float> HalfVariances(const cv::Mat& image, float b, int row) {
+  std::vector<float> half(static_cast<size_t>(WidthOf(image)));
+  const float centre_u = 0.5f * static_cast<float>(image.cols - 1);
+  const float y = static_cast<float>(row) - 0.5f * static_cast<float>(image.rows - 1);
+  const float a = b * y * y;
+  size_t i = 0;
+  for (int u = 0; u < image.cols; ++u) {
+    const float x = static_cast<float>(u) - centre_u;
+    for (int c = 0; c < image.channels(); ++c) half[i++] = 0.5f * (a + b * x * x);
+  }
+  return half;
+}
 
 // out = in + variance/2 (before - 2 in + after).
 FENESTRA_WIDE void Spread(const float* before, const float* in, const float* after, float* out,
-                          int first, int last, const RowVariance& variance) {
-  for (int u = first; u < last; ++u) {
-    const float x = static_cast<float>(u) - variance.centre;
-    const float half = 0.5f * (variance.a + variance.b * x * x);
-    out[u] = in[u] + half * (before[u] - 2.0f * in[u] + after[u]);
+                          const float* half, int count) {
+  for (int i = 0; i < count; ++i) {
+    out[i] = in[i] + half[i] * (before[i] - 2.0f * in[i] + after[i]);
   }
 }
 
 // One three-tap kernel along the rows and one along the columns, of variance peak ρ² each.
-void SpreadOnce(cv::Mat1f& image, double peak) {
-  const float b = static_cast<float>(peak / SquaredCornerDistance(image.size()));
-  const float centre_u = 0.5f * static_cast<float>(image.cols - 1);
-  const float centre_v = 0.5f * static_cast<float>(image.rows - 1);
-  const auto variance_of_row = [&](int v) {
-    const float y = static_cast<float>(v) - centre_v;
-    return RowVariance{.a = b * y * y, .b = b, .centre = centre_u};
-  };
-  cv::Mat1f along_rows(image.size());
-  const int last = image.cols - 1;
+void SpreadOnce(cv::Mat& image, double peak) {
+  const auto b = static_cast<float>(peak / SquaredCornerDistance(image.size()));
+  cv::Mat along_rows(image.size(), image.type());
+  const int channels = image.channels();
+  const int last = WidthOf(image) - channels;
   for (int v = 0; v < image.rows; ++v) {
-    const float* in = image[v];
-    float* out = along_rows[v];
-    const RowVariance variance = variance_of_row(v);
-    Spread(in - 1, in, in + 1, out, 1, last, variance);
-    if (last == 0) {
-      out[0] = in[0];
-      continue;
+    const float* in = image.ptr<float>(v);
+    float* out = along_rows.ptr<float>(v);
+    const std::vector<float> half = HalfVariances(image, b, v);
+    Spread(in, in + channels, in + 2 * channels, out + channels, half.data() + channels,
+           last - channels);
+    for (int c = 0; c < channels; ++c) {
+      const int end = last + c;
+      out[c] = in[c];
+      out[end] = in[end];
+      if (last == 0) continue;
+      out[c] += half[static_cast<size_t>(c)] * (in[c + channels] - in[c]);
+      out[end] += half[static_cast<size_t>(end)] * (in[end - channels] - in[end]);
     }
-    const float half = 0.5f * (variance.a + b * centre_u * centre_u);
-    out[0] = in[0] + half * (in[1] - in[0]);
-    out[last] = in[last] + half * (in[last - 1] - in[last]);
   }
   for (int v = 0; v < image.rows; ++v) {
-    const float* before = along_rows[std::max(v - 1, 0)];
-    const float* after = along_rows[std::min(v + 1, image.rows - 1)];
-    Spread(before, along_rows[v], after, image[v], 0, image.cols, variance_of_row(v));
+    Spread(along_rows.ptr<float>(std::max(v - 1, 0)), along_rows.ptr<float>(v),
+           along_rows.ptr<float>(std::min(v + 1, image.rows - 1)), image.ptr<float>(v),
+           HalfVariances(image, b, v).data(), WidthOf(image));
   }
 }
 
@@ -190,10 +205,10 @@ cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens) {
   return relative;
 }
 
-cv::Mat1f Gather(const QuarterImages& quarters, const PointSpread& spread) {
+cv::Mat Gather(const QuarterImages& quarters, const PointSpread& spread) {
   FENESTRA_CHECK(spread.corner_sigma_px >= spread.centre_sigma_px,
                  "an image is blurred least in its centre");
-  cv::Mat1f blurred = GatherQuarters(quarters, TapsOf(spread.centre_sigma_px));
+  cv::Mat blurred = GatherQuarters(quarters, TapsOf(spread.centre_sigma_px));
   const double rest = spread.corner_sigma_px * spread.corner_sigma_px -
                       spread.centre_sigma_px * spread.centre_sigma_px;
   // A three-tap kernel of variance 1/4 is close to a Gaussian; more of it takes several.

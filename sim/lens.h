@@ -42,7 +42,8 @@ cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens);
 /// One kernel over the quarters, of a Gaussian and the pixel's square, has the discrete variance
 /// σ₀² + 1/16, which with the quarters' own 1/48 is that of the optics and the pixel, σ₀² + 1/12.
 /// Three-tap kernels whose discrete variances add up to σ² - σ₀², exactly, at every pixel follow.
-/// The border is replicated. Domain: 0 ≤ σ₀ ≤ σ₁ ≤ 20 px; single-channel float images of one size.
-cv::Mat1f Gather(const QuarterImages& quarters, const PointSpread& spread);
+/// The border is replicated. Domain: 0 ≤ σ₀ ≤ σ₁ ≤ 20 px; float images of one size and number of
+/// channels, which the result has too.
+cv::Mat Gather(const QuarterImages& quarters, const PointSpread& spread);
 
 }  // namespace fenestra

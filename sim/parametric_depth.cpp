@@ -61,13 +61,14 @@ struct ParametricDepth::Match {
 ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
                                  const ParametricDepthOptions& noise,
                                  const SpeckleMatchingOptions& matching, const CameraModel& depth,
-                                 double baseline_m, const DisparityRange& range)
+                                 double baseline_m, const DisparityRange& range,
+                                 const RollingShutter& shutter)
     : infrared_((Validate(infrared), infrared)),
       noise_((Validate(noise), noise)),
       matching_((Validate(matching), matching)),
       range_(range),
       p_CP_(baseline_m, 0.0, 0.0),
-      rays_(depth),
+      rays_(depth, shutter),
       pattern_mean_(static_cast<float>(GatheredPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
       windows_(matching.window_width_px / scale_, matching.window_height_px / scale_,
@@ -173,8 +174,7 @@ float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& wind
 DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lighting,
                                     const Pose& X_WB, double unit_m, const RandomStream& shot,
                                     const RandomStream& frame) const {
-  const AovImages aovs =
-      caster.CastAovs(rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = X_WB * p_CP_});
+  const AovImages aovs = rays_.CastAovs(caster, X_WB, lighting, p_CP_);
   const WindowLight light = LightOf(aovs);
   const cv::Size size = aovs.depth_m.size();
   const cv::Size window(2 * windows_.reach_u() + 1, 2 * windows_.reach_v() + 1);

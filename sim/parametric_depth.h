@@ -8,6 +8,7 @@
 #include "sim/depth_frame.h"
 #include "sim/disparity_range.h"
 #include "sim/infrared_image.h"
+#include "sim/moving_rays.h"
 #include "sim/speckle_matching.h"
 #include "sim/window_evidence.h"
 
@@ -48,7 +49,7 @@ class ParametricDepth {
  public:
   ParametricDepth(const InfraredOptions& infrared, const ParametricDepthOptions& noise,
                   const SpeckleMatchingOptions& matching, const CameraModel& depth,
-                  double baseline_m, const DisparityRange& range);
+                  double baseline_m, const DisparityRange& range, const RollingShutter& shutter);
 
   /// `unit_m`: of the depth image. `shot`: tells this view's fixed noise from others', `frame` this
   /// frame's.
@@ -84,7 +85,7 @@ class ParametricDepth {
   SpeckleMatchingOptions matching_;
   DisparityRange range_;
   Eigen::Vector3d p_CP_;
-  RayGrid rays_;
+  MovingRays rays_;
   float pattern_mean_;
   std::array<Phase, kPhases> phases_;
   double scale_;  ///< Pixels of a 640-wide image per depth pixel.

@@ -33,14 +33,14 @@ double SearchEnd(const SpeckleMatchingOptions& matching, const DisparityRange& r
 
 SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
                            const CameraModel& depth, int scale, double baseline_m,
-                           const DisparityRange& range)
+                           const DisparityRange& range, const RollingShutter& shutter)
     : infrared_((Validate(infrared), infrared)),
       matching_(matching),
       range_(range),
       p_CP_(baseline_m, 0.0, 0.0),
       scale_(scale),
       depth_size_(depth.width_px(), depth.height_px()),
-      rays_(InfraredCamera(depth, scale)),
+      rays_(InfraredCamera(depth, scale), shutter),
       pattern_(infrared.dot_sigma_px),
       matcher_(matching, infrared, pattern_, rays_.size(), 0.0,
                SearchEnd(matching, range, rays_.size().width)) {}
@@ -63,7 +63,8 @@ DepthFrame SpeckleDepth::Observe(const RayCaster& caster, const Lighting& lighti
   const SpeckleMatches matches = matcher_.Match(infrared, scale_);
   const double to_640 = DisparityRange::kImageWidth / rays_.size().width;
   DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
-                    .no_return = cv::Mat1b::zeros(depth_size_)};
+                    .no_return = cv::Mat1b::zeros(depth_size_),
+                    .infrared = infrared};
   for (int v = 0; v < depth_size_.height; ++v) {
     for (int u = 0; u < depth_size_.width; ++u) {
       const cv::Point pixel(scale_ * u, scale_ * v);

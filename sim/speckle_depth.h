@@ -15,7 +15,8 @@ class SpeckleDepth {
   /// `depth`: the camera whose pixels the depth image has. The infra-red image is `scale` times as
   /// wide and high; depth pixel (u, v) is its pixel (scale u, scale v).
   SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
-               const CameraModel& depth, int scale, double baseline_m, const DisparityRange& range);
+               const CameraModel& depth, int scale, double baseline_m, const DisparityRange& range,
+               const RollingShutter& shutter);
 
   /// `unit_m`: of the depth image. `shot`: tells this view's laser speckle from others', `frame`
   /// this frame's noise.

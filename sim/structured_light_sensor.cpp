@@ -12,6 +12,8 @@
 namespace fenestra {
 namespace {
 
+constexpr double kFrameRate_hz = 30.0;
+
 CameraModel InfraredCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
 }
@@ -34,15 +36,20 @@ DisparityRange RangeOf(const StructuredLightOptions& o) {
                             o.disparity_step_px, o.near_mode);
 }
 
+RollingShutter InfraredShutter(const StructuredLightOptions& o) {
+  return {.motion = o.motion, .readout_s = o.infrared_readout_s};
+}
+
 std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const SpeckleDepth>>
 MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
   if (o.depth_model == DepthModel::kSpeckle) {
-    return std::make_shared<const SpeckleDepth>(o.infrared, o.matching, depth,
-                                                o.infrared_width_px / o.depth_width_px,
-                                                o.projector_baseline_m, RangeOf(o));
+    return std::make_shared<const SpeckleDepth>(
+        o.infrared, o.matching, depth, o.infrared_width_px / o.depth_width_px,
+        o.projector_baseline_m, RangeOf(o), InfraredShutter(o));
   }
   return std::make_shared<const ParametricDepth>(o.infrared, o.parametric, o.matching, depth,
-                                                 o.projector_baseline_m, RangeOf(o));
+                                                 o.projector_baseline_m, RangeOf(o),
+                                                 InfraredShutter(o));
 }
 
 }  // namespace
@@ -63,6 +70,7 @@ void Validate(const StructuredLightOptions& o) {
          fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
                      o.infrared_width_px, o.depth_width_px));
   if (!faults.empty()) throw InputError(std::move(faults));
+  Validate(InfraredShutter(o));
   Validate(o.infrared);
   Validate(o.parametric);
   Validate(o.matching);
@@ -73,7 +81,8 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
     : options_((Validate(options), options)),
       nominal_(CalibrationOf(options)),
       depth_model_(MakeDepthModel(options, InfraredCamera(options))),
-      color_(options.color, options.edge_samples_per_pixel),
+      color_(options.color, DepthToColor(options).inverse(), options.motion,
+             options.edge_samples_per_pixel),
       depth_rays_(nominal_.depth) {
   if (options.registered_depth) {
     registrar_.emplace(InfraredCamera(options), DepthToColor(options), nominal_.depth);
@@ -90,7 +99,7 @@ Pose StructuredLightSensor::X_WD(const Pose& X_WB) const {
 
 RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Lighting& lighting,
                                                const Pose& X_WB, const RandomStream& shot) const {
-  return {.color = color_.Observe(caster, lighting, X_WK(X_WB), shot),
+  return {.color = color_.Observe(caster, lighting, X_WB, shot),
           .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
 }
 
@@ -109,8 +118,11 @@ DepthFrame StructuredLightSensor::AverageDepth(const RayCaster& caster, const Li
   cv::Mat1d returns = cv::Mat1d::zeros(sum.size());
   returns.setTo(1.0, first.depth.raw != 0);
   for (int i = 1; i < options_.averaged_frames; ++i) {
-    const DepthFrame next =
-        OneDepthFrame(caster, lighting, X_WB, shot, shot.Child("frame", static_cast<uint64_t>(i)));
+    const RandomStream frame = shot.Child("frame", static_cast<uint64_t>(i));
+    const Pose X_WBi = PoseAt(X_WB, options_.motion, -i / kFrameRate_hz);
+    // From elsewhere the laser's speckle is another one.
+    const RandomStream& view = options_.motion.still() ? shot : frame;
+    const DepthFrame next = OneDepthFrame(caster, lighting, X_WBi, view, frame);
     cv::add(sum, next.depth.raw, sum, cv::noArray(), CV_64F);
     cv::add(returns, 1.0, returns, next.depth.raw != 0);
     // The reason is the first one that was given.

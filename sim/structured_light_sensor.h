@@ -35,6 +35,14 @@ struct StructuredLightOptions {
   double color_offset_m = 0.025;        ///< Colour camera right (+x) of the depth camera.
   double projector_baseline_m = 0.075;  ///< Projector right (+x) of the depth camera.
 
+  /// Of frame B while frames are taken. Truth is that of X_WB: where the rig is when the middle
+  /// rows of depth and colour image are exposed.
+  RigMotion motion;
+  /// Rolling shutter of the infra-red camera, an MT9M001: from the first row of the image to the
+  /// last. Assumed: 1049 rows' times, blanking included, in 1/30 s, and 960 of them in the image.
+  /// The exposure is taken to be short.
+  double infrared_readout_s = 30.5e-3;
+
   bool near_mode = false;  ///< 0.4–3.0 m instead of 0.8–4.0 m (MS SDK).
 
   DepthModel depth_model = DepthModel::kParametric;
@@ -48,8 +56,8 @@ struct StructuredLightOptions {
   /// kinect_calibration/technical) in OpenNI's drivers; 1/16 px, by the levels of its depth table,
   /// in the Microsoft SDK's. 0: none.
   double disparity_step_px = 0.125;
-  /// Depth images at 30 Hz that are averaged, each with its own noise: the mean of the returns of
-  /// pixels with a return in at least half of them.
+  /// Depth images at 30 Hz that are averaged, the last of them in time with the colour image, each
+  /// with its own noise: the mean of the returns of pixels with a return in at least half of them.
   int averaged_frames = 1;
   /// Whether the depth image is delivered as the colour camera would see it (DepthRegistrar), in as
   /// many pixels as before.

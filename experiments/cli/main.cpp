@@ -92,6 +92,7 @@ int Main(int argc, char** argv) {
   AddCalibrateCommand(program, exit_code);
   AddEmvaCommand(program, exit_code);
   AddDepthCommand(program, exit_code);
+  AddRatiosCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {
     program.parse(argc, argv);

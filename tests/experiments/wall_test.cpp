@@ -108,6 +108,27 @@ TEST(WallTest, SamePixelsGiveTheSameEstimateWhateverTheTruth) {
   }
 }
 
+TEST(WallTest, WhyPixelsHaveNoReturnStandsInTheTruthAlone) {
+  const Study study = SmallStudy();
+  bool any = false;
+  for (const Cell& cell : Cells(study)) {
+    const CellBench bench(study, cell);
+    const SimulatedTrial simulated = bench.Simulate(0);
+    const auto* seen = std::get_if<RgbdObservation>(&simulated.observation);
+    const std::optional<DepthFrame> depth = bench.DepthOf(simulated);
+    ASSERT_EQ(seen != nullptr, depth.has_value());
+    if (seen == nullptr) continue;
+    any = true;
+    // The same frame again, to the bit, and a reason wherever it has no return.
+    EXPECT_EQ(cv::countNonZero(depth->depth.raw != seen->depth.raw), 0);
+    EXPECT_EQ(cv::countNonZero((depth->no_return == 0) != (seen->depth.raw != 0)), 0);
+    const TemporaryFolder folder;
+    WriteTrialFiles(folder.path(), bench, simulated);
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "truth" / "no_return.png"));
+  }
+  EXPECT_TRUE(any);
+}
+
 TEST(WallTest, WhatADetectorCanReadNamesNoTruth) {
   const Study study = SmallStudy();
   const std::set<std::string> allowed = {"left.png",  "right.png", "color.png",

@@ -48,12 +48,12 @@ Scene HalfPlane(const Edge& edge) {
 
 // For each row (for an edge nearer the horizontal: each column), where the row's light says that
 // the edge is, minus where it is [px].
-std::vector<double> EdgeErrors(const Edge& edge, int edge_samples) {
+std::vector<double> EdgeErrors(const Edge& edge, const RenderOptions& options) {
   const double tilt_rad = edge.tilt_rad;
   const RayCaster caster(HalfPlane(edge));
   const RayGrid rays(CameraModel::Pinhole(kSize, kSize, kFocal_px));
   cv::Mat1f image = caster.Render(rays, FacingTheWall({0, 0, kDistance}), OnlySun(0.0, 0.1, 1e5),
-                                  {.edge_samples_per_pixel = edge_samples}, RandomStream(3));
+                                  options, RandomStream(3));
   const bool steep = tilt_rad < std::numbers::pi / 4.0 + 1e-9;
   const double full = image(steep ? kSize / 2 : 0, steep ? 0 : kSize / 2);
   if (!steep) image = image.t();
@@ -116,8 +116,8 @@ TEST(EdgeSampling, PlacesEdgesToThreeThousandthsOfAPixel) {
   for (const double tilt_deg : kTilts_deg) {
     // At 45 degrees all rows cut the edge alike, so its place within the pixels matters.
     for (const double below_px : {0.0, 0.2}) {
-      const auto errors =
-          EdgeErrors({.tilt_rad = Radians(tilt_deg), .below_px = below_px}, kMostPixelSamples);
+      const auto errors = EdgeErrors({.tilt_rad = Radians(tilt_deg), .below_px = below_px},
+                                     {.edge_samples_per_pixel = kMostPixelSamples});
       ASSERT_GT(errors.size(), 80u) << tilt_deg;
       // The RMS of n normal numbers is known to 1/√(2n); 4 of these: false alarm 3e-5.
       const double sampling = 4.0 / std::sqrt(2.0 * static_cast<double>(errors.size()));
@@ -126,6 +126,19 @@ TEST(EdgeSampling, PlacesEdgesToThreeThousandthsOfAPixel) {
           "rms_mpx_at_" + std::to_string(tilt_deg) + "_deg_below_" + std::to_string(below_px),
           std::to_string(1e3 * Rms(errors)));
     }
+  }
+}
+
+TEST(EdgeSampling, FourLinesPlaceEdgesToSixThousandthsOfAPixel) {
+  for (const double tilt_deg : kTilts_deg) {
+    const Edge edge{.tilt_rad = Radians(tilt_deg), .below_px = 0.2};
+    const auto errors = EdgeErrors(
+        edge,
+        {.samples_per_pixel = 1, .edge_samples_per_pixel = 64, .edge_lines = EdgeLines::kFour});
+    ASSERT_GT(errors.size(), 80u) << tilt_deg;
+    const double sampling = 4.0 / std::sqrt(2.0 * static_cast<double>(errors.size()));
+    EXPECT_LT(Rms(errors), 0.006 * (1.0 + sampling)) << tilt_deg << " degrees";
+    RecordProperty("rms_mpx_at_" + std::to_string(tilt_deg), std::to_string(1e3 * Rms(errors)));
   }
 }
 
@@ -218,12 +231,13 @@ TEST(FilmTest, QuartersFollowASlopeUpToAnEdgeAndNotAcrossIt) {
 // The twin with a fault: the base samples alone do not do it.
 TEST(EdgeSampling, FourSamplesAreNotEnough) {
   for (const double tilt_deg : kTilts_deg) {
-    EXPECT_GT(Rms(EdgeErrors({.tilt_rad = Radians(tilt_deg)}, 4)), 0.02) << tilt_deg;
+    EXPECT_GT(Rms(EdgeErrors({.tilt_rad = Radians(tilt_deg)}, {.edge_samples_per_pixel = 4})), 0.02)
+        << tilt_deg;
   }
 }
 
 TEST(EdgeSampling, ErrorsOfNeighbouringRowsAreIndependent) {
-  const auto errors = EdgeErrors({}, kMostPixelSamples);
+  const auto errors = EdgeErrors({}, {.edge_samples_per_pixel = kMostPixelSamples});
   double product = 0.0;
   for (size_t i = 1; i < errors.size(); ++i) product += errors[i] * errors[i - 1];
   const auto n = static_cast<double>(errors.size());

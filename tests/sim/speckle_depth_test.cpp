@@ -4,8 +4,10 @@
 
 #include <Eigen/QR>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "scenes/facade.h"
 #include "scenes/paper_target.h"
 #include "sim/structured_light_sensor.h"
 #include "sim/viewpoint.h"
@@ -207,6 +209,43 @@ TEST(SpeckleDepthTest, BlackPaintIsLostWithDistanceUnlessItIsBrightInTheInfraRed
   EXPECT_GT(share(0.40, 2.5), 0.9);
 }
 
+TEST(SpeckleDepthTest, ABlackFrameDropsOutUnlessItIsBrightInTheInfraRed) {
+  // The frame of the paper's target, without the pixels whose windows reach beyond it.
+  const auto share = [](double reflectance_830nm, double z_m) {
+    PaperTargetOptions target;
+    target.frame_reflectance_830nm = reflectance_830nm;
+    const RayCaster caster(MakePaperTarget(target));
+    const StructuredLightSensor sensor(Speckle());
+    const Pose X_WB = RigPose({.distance_m = z_m}, Pose());
+    const DepthFrame frame = sensor.ObserveDepth(caster, Dark(), X_WB, RandomStream(1));
+    cv::Mat1b is_frame = sensor.PixelTruth(caster, Dark(), X_WB).aovs.reflectance_830nm ==
+                         static_cast<float>(reflectance_830nm);
+    cv::erode(is_frame, is_frame, cv::Mat1b::ones(5, 5));
+    EXPECT_GT(cv::countNonZero(is_frame), 500);
+    return cv::countNonZero(is_frame & (frame.depth.raw != 0)) /
+           static_cast<double>(cv::countNonZero(is_frame));
+  };
+  EXPECT_GT(share(0.05, 1.0), 0.8);
+  EXPECT_LT(share(0.05, 1.8), 0.1);
+  EXPECT_GT(share(0.40, 1.8), 0.95);
+}
+
+TEST(SpeckleDepthTest, GlassLetsThePatternThroughToTheRoom) {
+  FacadeOptions facade;
+  facade.room.depth_m = 1.0;
+  facade.room.paint.reflectance_830nm = 0.8;
+  const auto middle_mm = [&](bool glass) {
+    facade.window.glass = glass;
+    const DepthFrame frame = Seen(Speckle(), MakeFacade(facade), {.distance_m = 1.5});
+    const cv::Mat1w middle = frame.depth.raw(cv::Rect(150, 110, 20, 20));
+    EXPECT_GT(cv::countNonZero(middle), 380) << glass;
+    return cv::mean(middle, middle != 0)[0];
+  };
+  // The room's back wall, and not the pane; the pattern's noise there is 12 mm.
+  EXPECT_NEAR(middle_mm(true), middle_mm(false), 10.0);
+  EXPECT_GT(middle_mm(true), 2500.0);
+}
+
 TEST(SpeckleDepthTest, AmbientLightDrownsTheDots) {
   const auto share = [](double lux) {
     Lighting lighting;
@@ -254,6 +293,7 @@ TEST(SpeckleDepthTest, TheParametricModelIsLikeIt) {
 
 TEST(SpeckleDepthTest, NoPoseGivesDepthWhereNothingIs) {
   EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kSpeckle, 1000, 5), 0);
+  EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kParametric, 1000, 6), 0);
 }
 
 }  // namespace

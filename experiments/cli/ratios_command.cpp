@@ -1,0 +1,35 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "experiments/cli/commands.h"
+#include "experiments/paired_ratio.h"
+#include "experiments/store.h"
+
+namespace fenestra::cli {
+
+void AddRatiosCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "ratios", "Compares the levels of one factor in a study's results, trial by trial");
+  command->footer(
+      "Example:\n"
+      "  fenestra ratios results/depth_models --factor rgbd_depth_model\n"
+      "RMSE and P95 of the centroid error under each level over those under the first one, with 90 "
+      "%\n"
+      "bootstrap intervals: trials of one index have the same poses under all levels.");
+  const auto results = std::make_shared<std::filesystem::path>();
+  const auto factor = std::make_shared<std::string>();
+  command->add_option("RESULTS", *results, "Results folder or its results.sqlite")->required();
+  command->add_option("--factor", *factor, "A factor with levels")->required();
+  command->callback([results, factor, &exit_code] {
+    const bool folder = std::filesystem::is_directory(*results);
+    const ResultStore store =
+        ResultStore::OpenReadOnly(folder ? *results / "results.sqlite" : *results);
+    const std::vector<TrialRecord> rows = store.Rows();
+    fmt::print("{}", PairedRatioTable(PairsBy(rows, *factor), *factor, RandomStream(1)));
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli

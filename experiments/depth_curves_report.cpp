@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "experiments/depth_bench.h"
+#include "experiments/depth_curves.h"
+#include "experiments/depth_laws.h"
+#include "experiments/text_table.h"
+
+namespace fenestra {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+TextTable TableWith(const std::vector<std::string>& headings) {
+  TextTable table;
+  for (const std::string& heading : headings) table.AddColumn(heading);
+  return table;
+}
+
+std::string Number(double x) {
+  return std::isnan(x) ? "—" : fmt::format("{:.3g}", x);
+}
+std::string Millimetres(double x_m) {
+  return Number(1e3 * x_m);
+}
+std::string Percent(double share) {
+  return fmt::format("{:.1f}", 100.0 * share);
+}
+
+std::string ByDistance(const DepthCurves& p, const DepthCurves& s) {
+  TextTable table =
+      TableWith({"distance [m]", "Khoshelham [mm]", "parametric [mm]", "speckle [mm]",
+                 "speckle, ratio", "temporal, parametric [mm]", "temporal, speckle [mm]",
+                 "valid, parametric [%]", "valid, speckle [%]"});
+  for (size_t i = 0; i < s.by_distance.size(); ++i) {
+    const auto& a = p.by_distance[i];
+    const auto& b = s.by_distance[i];
+    const double published_m = KhoshelhamSigma(b.z_m);
+    table.AddRow({Number(b.z_m), Millimetres(published_m), Millimetres(a.residual_m),
+                  Millimetres(b.residual_m), fmt::format("{:.2f}", b.residual_m / published_m),
+                  Millimetres(a.temporal_m), Millimetres(b.temporal_m), Percent(a.valid),
+                  Percent(b.valid)});
+  }
+  return table.ToMarkdown();
+}
+
+std::string ByIncidence(const DepthCurves& p, const DepthCurves& s) {
+  TextTable table = TableWith({"angle [deg]", "Nguyen [mm]", "parametric [mm]", "speckle [mm]",
+                               "valid, parametric [%]", "valid, speckle [%]"});
+  for (size_t i = 0; i < s.by_incidence.size(); ++i) {
+    const auto& a = p.by_incidence[i];
+    const auto& b = s.by_incidence[i];
+    table.AddRow({Number(b.angle_rad / kDegree), Millimetres(NguyenSigma(1.5, b.angle_rad)),
+                  Millimetres(a.residual_m), Millimetres(b.residual_m), Percent(a.valid),
+                  Percent(b.valid)});
+  }
+  return table.ToMarkdown();
+}
+
+std::string LateralTable(const DepthCurves& p, const DepthCurves& s) {
+  TextTable table =
+      TableWith({"angle [deg]", "Nguyen [px]", "parametric, left [px]", "parametric, right [px]",
+                 "speckle, left [px]", "speckle, right [px]"});
+  for (size_t i = 0; i < s.lateral.size(); ++i) {
+    const auto& a = p.lateral[i];
+    const auto& b = s.lateral[i];
+    table.AddRow({Number(b.angle_rad / kDegree),
+                  fmt::format("{:.2f}", NguyenLateralSigma(b.angle_rad)),
+                  fmt::format("{:.2f}", a.left_px), fmt::format("{:.2f}", a.right_px),
+                  fmt::format("{:.2f}", b.left_px), fmt::format("{:.2f}", b.right_px)});
+  }
+  return table.ToMarkdown();
+}
+
+std::string StepTable(const DepthCurves& s) {
+  TextTable table = TableWith(
+      {"distance [m]", "Khoshelham [mm]", "1/8 px [mm]", "SDK's table [mm]", "1/16 px [mm]"});
+  for (const DepthCurves::Step& step : s.steps) {
+    table.AddRow({Number(step.z_m), Millimetres(OpenNiStep(step.z_m)), Millimetres(step.open_ni_m),
+                  Millimetres(MicrosoftStep(step.z_m)), Millimetres(step.microsoft_m)});
+  }
+  return table.ToMarkdown();
+}
+
+std::vector<cv::Point2d> AmbientAt(const DepthCurves& curves, double z_m) {
+  std::vector<cv::Point2d> points;
+  for (const auto& at : curves.by_ambient) {
+    if (at.z_m == z_m) points.emplace_back(at.wall_lx, at.valid);
+  }
+  return points;
+}
+
+std::vector<cv::Point2d> PaintOf(const DepthCurves& curves, double reflectance) {
+  std::vector<cv::Point2d> points;
+  for (const auto& at : curves.by_paint) {
+    if (at.reflectance_830nm == reflectance) points.emplace_back(at.z_m, at.valid);
+  }
+  return points;
+}
+
+// Values of x that occur, in order.
+template <typename Rows, typename Field>
+std::vector<double> LevelsOf(const Rows& rows, Field field) {
+  std::vector<double> levels;
+  for (const auto& row : rows) {
+    if (std::find(levels.begin(), levels.end(), row.*field) == levels.end()) {
+      levels.push_back(row.*field);
+    }
+  }
+  return levels;
+}
+
+std::string AmbientTables(const StructuredLightOptions& options, const DepthCurves& p,
+                          const DepthCurves& s) {
+  TextTable halves = TableWith({"distance [m]", "predicted [lx]", "by", "parametric [lx]",
+                                "speckle [lx]", "speckle, ratio"});
+  for (const double z_m : LevelsOf(s.by_ambient, &DepthCurves::Ambient::z_m)) {
+    const ReachPrediction predicted = PredictedAmbientLimit(options, DepthBench::kWhite, z_m);
+    const double measured = HalfPoint(AmbientAt(s, z_m));
+    halves.AddRow({Number(z_m), Number(predicted.lux),
+                   predicted.by_saturation ? "saturation" : "acceptance",
+                   Number(HalfPoint(AmbientAt(p, z_m))), Number(measured),
+                   fmt::format("{:.2f}", measured / predicted.lux)});
+  }
+  TextTable table = TableWith(
+      {"on the wall [lx]", "distance [m]", "valid, parametric [%]", "valid, speckle [%]"});
+  for (size_t i = 0; i < s.by_ambient.size(); ++i) {
+    const auto& at = s.by_ambient[i];
+    table.AddRow(
+        {Number(at.wall_lx), Number(at.z_m), Percent(p.by_ambient[i].valid), Percent(at.valid)});
+  }
+  return fmt::format("Half of the pixels are lost at:\n\n{}\n{}", halves.ToMarkdown(),
+                     table.ToMarkdown());
+}
+
+std::string PaintTables(const StructuredLightOptions& options, const DepthCurves& p,
+                        const DepthCurves& s) {
+  TextTable halves =
+      TableWith({"reflectance at 830 nm", "predicted [m]", "parametric [m]", "speckle [m]"});
+  for (const double rho : LevelsOf(s.by_paint, &DepthCurves::Paint::reflectance_830nm)) {
+    halves.AddRow({Number(rho), Number(PredictedReach(options, rho)),
+                   Number(HalfPoint(PaintOf(p, rho))), Number(HalfPoint(PaintOf(s, rho)))});
+  }
+  TextTable table = TableWith(
+      {"reflectance at 830 nm", "distance [m]", "valid, parametric [%]", "valid, speckle [%]"});
+  for (size_t i = 0; i < s.by_paint.size(); ++i) {
+    const auto& at = s.by_paint[i];
+    table.AddRow({Number(at.reflectance_830nm), Number(at.z_m), Percent(p.by_paint[i].valid),
+                  Percent(at.valid)});
+  }
+  return fmt::format("Half of the pixels are lost at:\n\n{}\n{}", halves.ToMarkdown(),
+                     table.ToMarkdown());
+}
+
+std::string ShadowTable(const StructuredLightOptions& options, const DepthCurves& p,
+                        const DepthCurves& s) {
+  TextTable table =
+      TableWith({"plate [m]", "wall [m]", "geometry [px]", "left, parametric [px]",
+                 "left, speckle [px]", "right, parametric [px]", "right, speckle [px]"});
+  for (size_t i = 0; i < s.shadows.size(); ++i) {
+    const auto& a = p.shadows[i];
+    const auto& b = s.shadows[i];
+    const double width_px = ShadowWidth(options, b.plate_m, b.wall_m);
+    table.AddRow({Number(b.plate_m), Number(b.wall_m), fmt::format("{:.2f}", width_px),
+                  fmt::format("{:.2f}", a.left_px), fmt::format("{:.2f}", b.left_px),
+                  fmt::format("{:.2f}", a.right_px), fmt::format("{:.2f}", b.right_px)});
+  }
+  return table.ToMarkdown();
+}
+
+// The largest differences between the models.
+struct Agreement {
+  double share = 0.0;  ///< Of valid pixels.
+  std::string share_at = "nowhere";
+  double low_ratio = 1.0;  ///< Of noise, parametric : speckle, on white walls up to 60°.
+  double high_ratio = 1.0;
+};
+Agreement AgreementOf(const DepthCurves& p, const DepthCurves& s) {
+  Agreement worst;
+  const auto shares = [&](double a, double b, const std::string& at) {
+    if (std::abs(a - b) <= worst.share) return;
+    worst.share = std::abs(a - b);
+    worst.share_at = at;
+  };
+  const auto noise = [&](double a, double b) {
+    worst.low_ratio = std::min(worst.low_ratio, a / b);
+    worst.high_ratio = std::max(worst.high_ratio, a / b);
+  };
+  for (size_t i = 0; i < s.by_distance.size(); ++i) {
+    const auto& at = s.by_distance[i];
+    shares(p.by_distance[i].valid, at.valid, fmt::format("a white wall at {} m", at.z_m));
+    noise(p.by_distance[i].residual_m, at.residual_m);
+  }
+  for (size_t i = 0; i < s.by_ambient.size(); ++i) {
+    const auto& at = s.by_ambient[i];
+    shares(p.by_ambient[i].valid, at.valid, fmt::format("{} lx at {} m", at.wall_lx, at.z_m));
+  }
+  for (size_t i = 0; i < s.by_paint.size(); ++i) {
+    const auto& at = s.by_paint[i];
+    shares(p.by_paint[i].valid, at.valid,
+           fmt::format("paint of {} at {} m", at.reflectance_830nm, at.z_m));
+  }
+  for (size_t i = 0; i < s.by_incidence.size(); ++i) {
+    if (s.by_incidence[i].angle_rad > 60.5 * kDegree) break;
+    noise(p.by_incidence[i].residual_m, s.by_incidence[i].residual_m);
+  }
+  return worst;
+}
+
+}  // namespace
+
+std::string DepthCurvesMarkdown(const StructuredLightOptions& options,
+                                const DepthCurves& parametric, const DepthCurves& speckle) {
+  const Agreement worst = AgreementOf(parametric, speckle);
+  return fmt::format(
+      "# Depth of simulated walls\n\n"
+      "## White wall, by distance\n\n{}\n"
+      "## White wall at 1.5 m, by angle of incidence\n\n{}\n"
+      "## Upright borders of a plate at 1.5 m, by its angle\n\n{}\n"
+      "## Steps between depths\n\n{}\n"
+      "## Shadows\n\n{}\n"
+      "## White wall, by ambient light\n\n{}\n"
+      "## Paint\n\n{}\n"
+      "## The models against each other\n\n"
+      "Valid shares differ most, by {:.1f} points, at {}; noise of white walls up to 60°, "
+      "parametric : speckle, lies between {:.2f} and {:.2f}.\n\n"
+      "![Curves](depth_curves.png)\n",
+      ByDistance(parametric, speckle), ByIncidence(parametric, speckle),
+      LateralTable(parametric, speckle), StepTable(speckle),
+      ShadowTable(options, parametric, speckle), AmbientTables(options, parametric, speckle),
+      PaintTables(options, parametric, speckle), 100.0 * worst.share, worst.share_at,
+      worst.low_ratio, worst.high_ratio);
+}
+
+}  // namespace fenestra
