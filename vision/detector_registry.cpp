@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "vision/rgbd/paper_rgbd.h"
+#include "vision/rgbd/plane_rgbd.h"
 #include "vision/stereo/edge_stereo.h"
 #include "vision/stereo/paper_stereo.h"
 
@@ -44,6 +45,11 @@ const std::vector<Entry>& Entries() {
         .description = "Zhou et al. 2013, section 4: colour segmentation, NARF, diagonals",
         .options = PaperRgbdParameters().infos()},
        FactoryFor<PaperRgbdDetector, RgbdCalibration>(PaperRgbdParameters())},
+      {{.name = "plane-rgbd",
+        .sensor = SensorKind::kRgbd,
+        .description = "A dark frame's edges in colour, the wall's plane in depth, one rectangle",
+        .options = PlaneRgbdParameters().infos()},
+       FactoryFor<PlaneRgbdDetector, RgbdCalibration>(PlaneRgbdParameters())},
   };
   return entries;
 }

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,9 @@ class FrameFitter {
   /// The views must outlive this.
   FrameFitter(std::span<const CameraView> views, const FrameFitSettings& settings)
       : views_(views), settings_(settings), tunings_(views.size()) {}
+
+  /// From now on these instead of those in the settings.
+  void UsePlanes(std::vector<PlaneMeasurement> planes) { settings_.planes = std::move(planes); }
 
   /// One round with the outer sides alone. nullopt if they fix no rectangle.
   std::optional<FrameFit> FitRoughly(const FrameRectangle& start);

@@ -5,13 +5,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/frame/window_shape.h"
+
 namespace fenestra {
 namespace {
 
 // A window whose size differs by this share from what is expected is another one.
 constexpr double kUnexpected = 0.08;
+constexpr double kMostWarp = 0.1;  // Distance of the diagonals' middles over the longer side.
 
 }  // namespace
+
+bool AreCornersOfFrame(const std::array<Eigen::Vector3d, 4>& p_CV, const FrameLimits& limits) {
+  const WindowShape shape = MeasureShape(p_CV);
+  const double shorter = std::min(shape.width_m, shape.height_m);
+  const double longer = std::max(shape.width_m, shape.height_m);
+  if (shorter < limits.min_side_m || longer > limits.max_side_m) return false;
+  if (longer > limits.max_side_ratio * shorter) return false;
+  if (shape.skew_rad > limits.max_skew_rad || shape.taper > limits.max_taper) return false;
+  const Eigen::Vector3d gap = 0.5 * (p_CV[0] + p_CV[2]) - 0.5 * (p_CV[1] + p_CV[3]);
+  return gap.norm() < kMostWarp * longer;
+}
 
 std::optional<Miss> ObjectionToFrame(const FrameRectangle& frame, const FrameLimits& limits) {
   const auto implausible = [](const std::string& detail) {
@@ -28,20 +42,6 @@ std::optional<Miss> ObjectionToFrame(const FrameRectangle& frame, const FrameLim
     return implausible(fmt::format("{:.2f} x {:.2f} m", frame.width_m, frame.height_m));
   }
   return std::nullopt;
-}
-
-std::optional<Miss> ObjectionToSize(const FrameRectangle& frame,
-                                    const std::optional<SizePrior>& expected) {
-  if (!expected) return std::nullopt;
-  const double tolerance_m = std::max(kUnexpected * std::min(expected->width_m, expected->height_m),
-                                      5.0 * expected->sigma_m);
-  if (std::abs(frame.width_m - expected->width_m) <= tolerance_m &&
-      std::abs(frame.height_m - expected->height_m) <= tolerance_m) {
-    return std::nullopt;
-  }
-  return Miss{"unexpected_size",
-              fmt::format("{:.2f} x {:.2f} m instead of {:.2f} x {:.2f} m", frame.width_m,
-                          frame.height_m, expected->width_m, expected->height_m)};
 }
 
 std::optional<Miss> ObjectionToPrior(const FrameRectangle& frame, const WindowPrior& prior) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "core/detection.h"
@@ -20,14 +21,13 @@ struct FrameLimits {
   double max_taper;       ///< Relative difference of opposite sides.
 };
 
+/// Whether four corners (in the order of WindowEstimate) are nearly those of such a rectangle.
+/// Depth is not looked at.
+bool AreCornersOfFrame(const std::array<Eigen::Vector3d, 4>& p_CV, const FrameLimits& limits);
+
 /// "implausible_shape" for a fitted rectangle that is too near, too far, too small, too large or
 /// too slender.
 std::optional<Miss> ObjectionToFrame(const FrameRectangle& frame, const FrameLimits& limits);
-
-/// "unexpected_size" for a rectangle, fitted without knowing what is expected, whose sides are off
-/// by more than 8 % of the shorter expected side and five standard deviations: another window.
-std::optional<Miss> ObjectionToSize(const FrameRectangle& frame,
-                                    const std::optional<SizePrior>& expected);
 
 /// An objection of the prior (ObjectionOf) to a rectangle that was fitted without it; sides may be
 /// off by 8 % of the shorter one.

@@ -1,41 +1,14 @@
 #include "vision/rgbd/depth_registration.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "vision/rgbd/observation_check.h"
+#include "vision/rgbd/undistortion.h"
 
 namespace fenestra {
 namespace {
-
-CameraModel WithoutDistortion(const CameraModel& camera) {
-  CameraParameters parameters = camera.parameters();
-  parameters.distortion = {};
-  return CameraModel(parameters);
-}
-
-// A pixel outside the image where the lens sees nothing, so that it becomes black there.
-constexpr float kOutside = -1e4f;
-
-cv::Mat2f UndistortionMap(const CameraModel& camera) {
-  const CameraModel pinhole = WithoutDistortion(camera);
-  cv::Mat2f map(camera.height_px(), camera.width_px(), cv::Vec2f(kOutside, kOutside));
-  for (int v = 0; v < map.rows; ++v) {
-    for (int u = 0; u < map.cols; ++u) {
-      const auto ray = pinhole.UnprojectRay({u, v});
-      const auto pixel = ray ? camera.Project(*ray) : std::nullopt;
-      if (pixel) map(v, u) = {static_cast<float>(pixel->x()), static_cast<float>(pixel->y())};
-    }
-  }
-  return map;
-}
-
-std::string SizeText(const cv::Size& size) {
-  return fmt::format("{} x {} px", size.width, size.height);
-}
 
 cv::Size SizeOf(const CameraModel& camera) {
   return {camera.width_px(), camera.height_px()};
@@ -71,27 +44,8 @@ DepthRegistration::DepthRegistration(const RgbdCalibration& calibration)
 }
 
 RegisteredImages DepthRegistration::Register(const RgbdObservation& observation) const {
-  CheckFits(observation);
+  CheckFits(observation, calibration_);
   return {ResampleColor(observation.color), CarryDepth(observation.depth)};
-}
-
-void DepthRegistration::CheckFits(const RgbdObservation& observation) const {
-  std::vector<InputFault> faults;
-  const auto demand_size = [&faults](const char* name, const cv::Size& found,
-                                     const cv::Size& want) {
-    if (found == want) return;
-    faults.push_back(
-        {name, 0, 0,
-         fmt::format("the image has {}, its calibration {}", SizeText(found), SizeText(want))});
-  };
-  demand_size("color", observation.color.size(), SizeOf(calibration_.color));
-  demand_size("depth", observation.depth.raw.size(), SizeOf(calibration_.depth));
-  if (observation.depth.unit_m != calibration_.depth_unit_m) {
-    faults.push_back({"depth", 0, 0,
-                      fmt::format("the image has a unit of {} m, its calibration {} m",
-                                  observation.depth.unit_m, calibration_.depth_unit_m)});
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
 }
 
 cv::Mat3b DepthRegistration::ResampleColor(const cv::Mat3b& color) const {

@@ -40,7 +40,6 @@ class DepthRegistration {
   const CameraModel& working_camera() const { return working_; }
 
  private:
-  void CheckFits(const RgbdObservation& observation) const;
   cv::Mat3b ResampleColor(const cv::Mat3b& color) const;
   cv::Mat1f CarryDepth(const DepthImage& depth) const;
 

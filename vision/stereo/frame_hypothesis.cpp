@@ -148,7 +148,7 @@ std::optional<Miss> ObjectionToShape(const WindowEstimate& estimate_F,
   if (z_m < criteria.nearest_m || z_m > criteria.farthest_m) {
     return implausible(fmt::format("depth {:.2f} m is out of range", z_m));
   }
-  const WindowShape shape = MeasureShape(estimate_F);
+  const WindowShape shape = MeasureShape(estimate_F.p_CV);
   const double shorter = std::min(shape.width_m, shape.height_m);
   const double longer = std::max(shape.width_m, shape.height_m);
   const std::string size = fmt::format("{:.2f} x {:.2f} m", shape.width_m, shape.height_m);

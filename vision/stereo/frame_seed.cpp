@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/stereo/window_rectangle.h"
-
 namespace fenestra {
 namespace {
 
@@ -15,7 +13,6 @@ constexpr double kLeastCommonRows = 0.4;
 constexpr double kLeastClarity = 0.3;  // Of that in the left image.
 // Of the depth: corners that are so near are the same.
 constexpr double kSame = 0.012;
-constexpr double kMostWarp = 0.1;  // Distance of the diagonals' middles over the longer side.
 
 // Disparities of a side's upper and lower end.
 struct SideDisparity {
@@ -43,19 +40,6 @@ std::vector<SideDisparity> Matches(const Vector2d& upper, const Vector2d& lower,
     matches.push_back(d);
   }
   return matches;
-}
-
-bool IsPlausible(const std::array<Vector3d, 4>& p_FV, const FrameLimits& limits) {
-  WindowEstimate estimate;
-  estimate.p_CV = p_FV;
-  const WindowShape shape = MeasureShape(estimate);
-  const double shorter = std::min(shape.width_m, shape.height_m);
-  const double longer = std::max(shape.width_m, shape.height_m);
-  if (shorter < limits.min_side_m || longer > limits.max_side_m) return false;
-  if (longer > limits.max_side_ratio * shorter) return false;
-  if (shape.skew_rad > limits.max_skew_rad || shape.taper > limits.max_taper) return false;
-  const Vector3d gap = 0.5 * (p_FV[0] + p_FV[2]) - 0.5 * (p_FV[1] + p_FV[3]);
-  return gap.norm() < kMostWarp * longer;
 }
 
 bool NearlySame(const FrameSeed& a, const FrameSeed& b) {
@@ -87,7 +71,7 @@ std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegmen
         seed.p_FV[i] = camera.DepthFromDisparity(d[i]) * camera.Ray(q[i]);
         right[i] = q[i] - Vector2d(d[i], 0.0);
       }
-      if (!IsPlausible(seed.p_FV, limits)) continue;
+      if (!AreCornersOfFrame(seed.p_FV, limits)) continue;
       const double clarity = DarkInside(right_image, right, darkness);
       if (clarity < kLeastClarity * left.clarity) continue;
       if (!IsDarkThroughout(right_image, right, darkness)) continue;

@@ -18,10 +18,6 @@ Vector3d IntersectDiagonals(const std::array<Vector3d, 4>& V) {
   return V[0] + s * p;
 }
 
-double RelativeDifference(double a, double b) {
-  return std::abs(a - b) / (0.5 * (a + b));
-}
-
 }  // namespace
 
 std::optional<WindowEstimate> WindowOnPlane(const Quadrilateral& corners_px,
@@ -48,22 +44,6 @@ WindowEstimate Rotated(const Eigen::Matrix3d& R_CF, const WindowEstimate& estima
     estimate.covariance_C = R_CF * *estimate_F.covariance_C * R_CF.transpose();
   }
   return estimate;
-}
-
-WindowShape MeasureShape(const WindowEstimate& estimate) {
-  std::array<Vector3d, 4> side;
-  for (size_t i = 0; i < 4; ++i) side[i] = estimate.p_CV[(i + 1) % 4] - estimate.p_CV[i];
-  WindowShape shape;
-  shape.width_m = 0.5 * (side[0].norm() + side[2].norm());
-  shape.height_m = 0.5 * (side[1].norm() + side[3].norm());
-  shape.taper = std::max(RelativeDifference(side[0].norm(), side[2].norm()),
-                         RelativeDifference(side[1].norm(), side[3].norm()));
-  for (size_t i = 0; i < 4; ++i) {
-    const Vector3d& next = side[(i + 1) % 4];
-    const double sine = std::abs(side[i].normalized().dot(next.normalized()));
-    shape.skew_rad = std::max(shape.skew_rad, std::asin(std::min(1.0, sine)));
-  }
-  return shape;
 }
 
 }  // namespace fenestra

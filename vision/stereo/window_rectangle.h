@@ -5,6 +5,7 @@
 
 #include "core/detection.h"
 #include "vision/frame/quadrilateral.h"
+#include "vision/frame/window_shape.h"
 #include "vision/stereo/disparity_plane.h"
 
 namespace fenestra {
@@ -19,16 +20,5 @@ std::optional<WindowEstimate> WindowOnPlane(const Quadrilateral& corners_px,
 
 /// The same window in the frame C that R_CF turns F to.
 WindowEstimate Rotated(const Eigen::Matrix3d& R_CF, const WindowEstimate& estimate_F);
-
-struct WindowShape {
-  double width_m = 0.0;   ///< Mean of the upper and the lower side.
-  double height_m = 0.0;  ///< Mean of the left and the right side.
-  /// Largest departure of a corner's angle from a right one [rad].
-  double skew_rad = 0.0;
-  /// Largest relative difference of opposite sides.
-  double taper = 0.0;
-};
-
-WindowShape MeasureShape(const WindowEstimate& estimate);
 
 }  // namespace fenestra

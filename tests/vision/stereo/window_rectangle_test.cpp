@@ -30,7 +30,7 @@ TEST(WindowRectangle, ProjectedRectangleGivesItsOwnGeometry) {
   EXPECT_LT((estimate->p_CO - X_FO.translation()).norm(), 1e-12);
   EXPECT_LT((estimate->normal_C - n).norm(), 1e-12);
   for (size_t i = 0; i < 4; ++i) EXPECT_LT((estimate->p_CV[i] - p_FV[i]).norm(), 1e-12);
-  const WindowShape shape = MeasureShape(*estimate);
+  const WindowShape shape = MeasureShape(estimate->p_CV);
   EXPECT_NEAR(shape.width_m, 1.2, 1e-12);
   EXPECT_NEAR(shape.height_m, 1.0, 1e-12);
   EXPECT_NEAR(shape.skew_rad, 0.0, 1e-12);

@@ -1,0 +1,145 @@
+#include "vision/rgbd/frame_planes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace fenestra {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int kLeastWall = 100;
+constexpr int kLeastFront = 30;
+constexpr double kWallReach = 1.5;  // Of the frame's longer side, on each side of it.
+constexpr double kFree_m = 1.0;     // Standard deviation of an offset that is not known.
+constexpr double kOtherwise = 4.0;
+constexpr double kOtherwise_m = 0.015;
+// What is so far behind the front is no part of a frame.
+constexpr double kBehind_m = 0.15;
+constexpr double kBehindSigmas = 6.0;
+constexpr int kLeastBehind = 15;
+// Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
+constexpr double kLeastReturns = 0.6;
+constexpr double kInlier = 3.5;
+constexpr double kInPlane = 0.9;  // Of the points of a surface.
+
+// The plane parallel to this one and `setback_m` behind it.
+Vector3d Behind(const Vector3d& m, double setback_m) {
+  return m.normalized() / (1.0 / m.norm() + setback_m);
+}
+
+PlaneMeasurement WallMeasurement(const DepthPlane& wall, double setback_m, double sigma_m) {
+  // m = n/(n·p + relief), so that dm/drelief = |m| m, as n points towards the camera.
+  const Vector3d by_setback = wall.m.norm() * wall.m;
+  const Matrix3d covariance =
+      wall.information.inverse() + sigma_m * sigma_m * by_setback * by_setback.transpose();
+  return {.m = wall.m, .information = covariance.inverse(), .relief_m = setback_m};
+}
+
+// Of the front behind the wall, by the depth between the frame's edges.
+struct Offset {
+  double setback_m;
+  double sigma_m;
+};
+std::optional<Offset> MeasureOffset(const std::vector<DepthPoint>& front, const DepthPlane& wall,
+                                    const DepthNoise& noise) {
+  if (front.size() < kLeastFront) return std::nullopt;
+  std::vector<double> behind;
+  double inverse_depth = 0.0;
+  for (const DepthPoint& point : front) {
+    behind.push_back(-wall.Distance(point));
+    inverse_depth += point.inverse_depth / static_cast<double>(front.size());
+  }
+  const auto middle = behind.begin() + static_cast<std::ptrdiff_t>(behind.size() / 2);
+  std::nth_element(behind.begin(), middle, behind.end());
+  const double independent = std::max(1.0, static_cast<double>(front.size()) / noise.window_points);
+  // A median has π/2 times a mean's variance.
+  const double sigma_m =
+      wall.sigma / (inverse_depth * inverse_depth) * std::sqrt(1.57 / independent);
+  return Offset{*middle, sigma_m};
+}
+
+// Whether points that are not the wall's are in its plane.
+bool AreInPlane(const std::vector<DepthPoint>& points, const DepthPlane& wall,
+                const DepthNoise& noise) {
+  const auto offset = MeasureOffset(points, wall, noise);
+  if (!offset) return false;
+  Vector3d middle = Vector3d::Zero();
+  double inverse_depth = 0.0;
+  int near = 0;
+  for (const DepthPoint& point : points) {
+    middle += point.ray_D / static_cast<double>(points.size());
+    inverse_depth += point.inverse_depth / static_cast<double>(points.size());
+    const double off = point.inverse_depth - wall.m.dot(point.ray_D);
+    if (std::abs(off) < kInlier * wall.sigma) ++near;
+  }
+  if (near < kInPlane * static_cast<double>(points.size())) return false;
+  const double of_wall_m =
+      std::sqrt(middle.dot(wall.information.inverse() * middle)) / std::pow(inverse_depth, 2);
+  return std::abs(offset->setback_m) < kInlier * std::hypot(offset->sigma_m, of_wall_m);
+}
+
+bool IsOpen(const std::vector<DepthPoint>& front, const DepthPlane& wall, double setback_m) {
+  int behind = 0;
+  for (const DepthPoint& point : front) {
+    const double z_m = 1.0 / point.inverse_depth;
+    const double limit_m = std::max(kBehind_m, kBehindSigmas * wall.sigma * z_m * z_m);
+    if (-wall.Distance(point) - setback_m > limit_m) ++behind;
+  }
+  return behind >= kLeastBehind && 2 * behind > static_cast<int>(front.size());
+}
+
+}  // namespace
+
+std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>& points,
+                                                   const FrameRectangle& frame,
+                                                   const DepthPlane& wall, const CameraModel& depth,
+                                                   const FramePlaneSettings& settings) {
+  FramePlanes found;
+  found.points =
+      DepthOf(points, frame, depth,
+              {.clear_px = settings.clear_px,
+               .wall = kWallReach,
+               .read = settings.noise.window_points / std::pow(settings.noise.window_px, 2)});
+  auto measured = MeasureDepthPlane(found.points.wall, wall.m, settings.noise, kLeastWall);
+  if (!measured) {
+    return Miss{"no_depth", fmt::format("{} depth pixels of the wall around the frame",
+                                        found.points.wall.size())};
+  }
+  if (AreInPlane(found.points.inside, *measured, settings.noise)) {
+    found.points.wall.insert(found.points.wall.end(), found.points.inside.begin(),
+                             found.points.inside.end());
+    const auto both = MeasureDepthPlane(found.points.wall, measured->m, settings.noise, kLeastWall);
+    if (both) measured = both;
+  }
+  found.wall = *measured;
+  found.setback_m = settings.setback_m;
+  const std::vector<DepthPoint>& front = found.points.border;
+  if (IsOpen(front, found.wall, settings.setback_m)) {
+    return Miss{"open_border", "what is seen between the frame's edges is far behind them"};
+  }
+  double sigma_m = settings.setback_sigma_m;
+  const bool is_seen =
+      static_cast<double>(front.size()) > kLeastReturns * found.points.border_pixels;
+  const auto offset = is_seen ? MeasureOffset(front, found.wall, settings.noise) : std::nullopt;
+  if (offset) {
+    const double off_m = std::abs(offset->setback_m - settings.setback_m);
+    const double allowed_m =
+        std::max(kOtherwise_m, kOtherwise * std::hypot(offset->sigma_m, sigma_m));
+    if (off_m > allowed_m) {
+      found.setback_m = offset->setback_m;
+      sigma_m = kFree_m;
+    }
+  }
+  found.planes.push_back(WallMeasurement(found.wall, found.setback_m, sigma_m));
+  const auto own =
+      MeasureDepthPlane(front, Behind(found.wall.m, found.setback_m), settings.noise, kLeastFront);
+  if (own) found.planes.push_back({.m = own->m, .information = own->information, .relief_m = 0.0});
+  return found;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/camera_model.h"
+#include "vision/frame/frame_adjustment.h"
+#include "vision/rgbd/depth_plane.h"
+#include "vision/rgbd/frame_depth.h"
+
+namespace fenestra {
+
+struct FramePlaneSettings {
+  DepthNoise noise;
+  double clear_px;  ///< See DepthOf.
+  double setback_m;
+  double setback_sigma_m;
+};
+
+/// What depth knows of a frame.
+struct FramePlanes {
+  double setback_m = 0.0;                ///< Of the front behind the wall, given or measured.
+  std::vector<PlaneMeasurement> planes;  ///< The wall; the frame's front, where it has depth.
+  FrameDepth points;
+  DepthPlane wall;
+};
+
+/// Measures the wall around a frame, and the frame's front where it returns light. The front is
+/// where the settings say, unless its own depth is there and says otherwise by four standard
+/// deviations and 15 mm; then the wall tells the front's tilt only. What is seen in the opening
+/// counts as wall if it is in its plane, as where a frame is painted on it.
+///
+/// Miss: "no_depth" if there is too little of the wall; "open_border" if most of what is seen
+/// between the edges of the frame is far behind it, as through the pane of a bright frame.
+///
+/// `frame`: right to a pixel or so, with a border. `wall`: a first guess.
+std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>& points,
+                                                   const FrameRectangle& frame,
+                                                   const DepthPlane& wall, const CameraModel& depth,
+                                                   const FramePlaneSettings& settings);
+
+}  // namespace fenestra

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "core/calibration.h"
+#include "core/observation.h"
+
+namespace fenestra {
+
+/// Throws InputError with all faults if the image sizes or the depth unit are not those of the
+/// calibration.
+void CheckFits(const RgbdObservation& observation, const RgbdCalibration& calibration);
+
+}  // namespace fenestra

@@ -1,0 +1,327 @@
+#include "vision/rgbd/plane_rgbd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "core/input_error.h"
+#include "vision/frame/frame_pictures.h"
+#include "vision/frame/frame_score.h"
+#include "vision/rgbd/frame_planes.h"
+#include "vision/rgbd/linear_grey.h"
+#include "vision/rgbd/observation_check.h"
+#include "vision/rgbd/pictures.h"
+#include "vision/rgbd/undistortion.h"
+
+namespace fenestra {
+namespace {
+
+constexpr double kReach_px = 4.0;  // Of pixels that an edge is fitted to.
+// Half a depth pixel's window, and a pixel for the place of its evidence.
+constexpr double kClearWindows = 0.5;
+constexpr double kClear_px = 1.0;
+// Fits that may fail before a picture is given up: each takes some milliseconds.
+constexpr int kMostFinished = 4;
+// Candidates that begin with less than this share of the best one's score are not measured.
+constexpr double kHopeless = 0.7;
+// Of the shorter side: where a frame without an inner edge is surely still a frame.
+constexpr double kGuessedBorder = 0.06;
+
+constexpr double kLeastOfColor = 0.5;
+
+double GuessedBorder(const FrameRectangle& frame) {
+  return kGuessedBorder * std::min(frame.width_m, frame.height_m);
+}
+
+const PlaneRgbdOptions& Validated(const PlaneRgbdOptions& options) {
+  Validate(options);
+  return options;
+}
+
+const RgbdCalibration& Checked(const RgbdCalibration& calibration) {
+  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
+    throw InputError("depth_unit_m",
+                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
+  }
+  return calibration;
+}
+
+DepthNoise NoiseOf(const RgbdCalibration& calibration, const PlaneRgbdOptions& options,
+                   const DepthPointReader& reader) {
+  const int width_px = calibration.depth.width_px();
+  const double window_px = std::max(1.0, options.depth_window_px * width_px / 640.0);
+  return {.sigma = options.depth_noise_per_m,
+          .step = options.depth_step_per_m,
+          .window_px = window_px,
+          .window_points = window_px * window_px / (reader.columns() * reader.rows()),
+          .window_rad = window_px / calibration.depth.parameters().fx_px,
+          .image = {width_px, calibration.depth.height_px()},
+          .farthest = options.depth_to_m > 0.0 ? 1.0 / options.depth_to_m : 0.0};
+}
+
+const RgbdObservation& RgbdPart(const Observation& observation) {
+  const auto* rgbd = std::get_if<RgbdObservation>(&observation);
+  if (rgbd == nullptr) {
+    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
+  }
+  return *rgbd;
+}
+
+// The wall that was used green, what is off its plane red, the frame's front yellow.
+cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
+                       const DepthPointReader& reader) {
+  cv::Mat1f depth_m;
+  depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
+  cv::Mat3b picture;
+  DrawDepth(depth_m).convertTo(picture, CV_8U, 0.4);
+  const auto mark = [&](const DepthPoint& point, const cv::Vec3b& colour) {
+    const cv::Rect place =
+        cv::Rect(point.pixel.x - reader.columns() / 2, point.pixel.y - reader.rows() / 2,
+                 reader.columns(), reader.rows()) &
+        cv::Rect({0, 0}, picture.size());
+    picture(place).setTo(colour);
+  };
+  for (size_t i = 0; i < planes.points.wall.size(); ++i) {
+    mark(planes.points.wall[i],
+         planes.wall.is_inlier[i] ? cv::Vec3b(80, 200, 80) : cv::Vec3b(60, 60, 230));
+  }
+  for (const DepthPoint& point : planes.points.border) mark(point, {60, 220, 230});
+  return picture;
+}
+
+// Share of places in the middle of the frame's border that have the expected colour.
+double ShareOfColor(const WindowPrior& prior, const cv::Mat3b& color, const CameraView& view,
+                    const FrameRectangle& frame) {
+  constexpr int kPlaces = 16;
+  const cv::Mat1b is_expected = ExpectedColor(prior, color);
+  FrameRectangle middle = frame;
+  middle.border_m = 0.5 * (frame.border_m > 0.0 ? frame.border_m : GuessedBorder(frame));
+  int expected = 0;
+  for (const Side side : kAllSides) {
+    for (int i = 0; i < kPlaces; ++i) {
+      const auto pixel = view.camera.Project(
+          view.X_CL * middle.PointOn(side, Border::kInner, (i + 0.5) / kPlaces));
+      if (!pixel || !view.camera.Contains(*pixel)) continue;
+      const cv::Point place(static_cast<int>(std::lround(pixel->x())),
+                            static_cast<int>(std::lround(pixel->y())));
+      if (is_expected(place) != 0) ++expected;
+    }
+  }
+  return expected / (4.0 * kPlaces);
+}
+
+// The frame as the camera at `center` sees it, with its front moved from one setback behind the
+// wall to another.
+FrameRectangle Moved(const FrameRectangle& frame, const Eigen::Vector3d& center, double by_m) {
+  const double distance_m = -frame.R_LO.col(2).dot(frame.p_LO - center);
+  const double factor = (distance_m + by_m) / distance_m;
+  FrameRectangle moved = frame;
+  moved.p_LO = center + factor * (frame.p_LO - center);
+  moved.width_m *= factor;
+  moved.height_m *= factor;
+  moved.border_m *= factor;
+  return moved;
+}
+
+}  // namespace
+
+struct PlaneRgbdDetector::Finished {
+  FrameFit fit;
+  FramePlanes planes;
+  WindowEstimate estimate;
+};
+
+PlaneRgbdDetector::PlaneRgbdDetector(const RgbdCalibration& calibration,
+                                     const PlaneRgbdOptions& options)
+    : options_(Validated(options)),
+      calibration_(Checked(calibration)),
+      pinhole_(WithoutDistortion(calibration.color)),
+      reader_({pinhole_, calibration.depth, calibration.X_KD, calibration.depth_unit_m}),
+      darkness_{.black_dn = 0.0, .min_contrast_dn = options.min_contrast_dn, .reach_px = 4.0},
+      fitting_{.min_contrast_dn = options.min_contrast_dn,
+               .reach_px = kReach_px,
+               .min_side_support = options.min_side_support,
+               .border = {.smallest_m = options.min_border_m,
+                          .largest_share = options.max_border_share,
+                          .min_contrast_dn = options.min_contrast_dn},
+               .size = SizePriorOf(options.prior)},
+      noise_(NoiseOf(calibration, options, reader_)),
+      limits_{.nearest_m = options.nearest_m,
+              .farthest_m = options.farthest_m,
+              .min_side_m = options.min_side_m,
+              .max_side_m = options.max_side_m,
+              .max_side_ratio = options.max_side_ratio,
+              .max_skew_rad = options.max_skew_rad,
+              .max_taper = options.max_taper},
+      clear_px_(kClearWindows * noise_.window_px + kClear_px * reader_.columns()) {
+  if (calibration.color.has_distortion()) undistortion_ = UndistortionMap(calibration.color);
+}
+
+Detection PlaneRgbdDetector::Detect(const Observation& observation, StageLog& log) const {
+  const RgbdObservation& seen = RgbdPart(observation);
+  CheckFits(seen, calibration_);
+  log.Begin("read");
+  const cv::Mat1b grey = LinearGrey(seen.color);
+  cv::Mat1b straight = grey;
+  if (!undistortion_.empty()) {
+    straight = cv::Mat1b();
+    cv::remap(grey, straight, undistortion_, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  }
+  const std::vector<DepthPoint> points = reader_.Read(seen.depth);
+
+  log.Begin("segments");
+  const EdgeSegments segments =
+      FindEdgeSegments(straight, {.min_length_px = options_.min_segment_px,
+                                  .min_darkness = options_.min_darkness,
+                                  .most_per_side = options_.most_segments,
+                                  .darkness = darkness_});
+  log.Begin("propose");
+  const auto candidates =
+      FindDarkQuadrilaterals(straight, segments, darkness_, options_.min_darkness,
+                             static_cast<size_t>(2 * options_.most_candidates));
+  log.Picture("segments", [&] { return DrawSegments(straight, segments, candidates); },
+              {PictureView{pinhole_, calibration_.X_KD}});
+  log.Begin("plane");
+  std::variant<std::vector<PlaneSeed>, Miss> seeds = Seeds(candidates, points);
+  log.Begin("fit");
+  Detection detection = Miss{};
+  if (const Miss* miss = std::get_if<Miss>(&seeds)) {
+    detection = *miss;
+  } else {
+    const CameraView view{calibration_.color, calibration_.X_KD, grey};
+    detection = FitBest({seen, view, points}, std::get<std::vector<PlaneSeed>>(seeds), log);
+  }
+  log.End();
+  return detection;
+}
+
+std::variant<std::vector<PlaneSeed>, Miss> PlaneRgbdDetector::Seeds(
+    const std::vector<DarkQuadrilateral>& candidates, const std::vector<DepthPoint>& points) const {
+  if (candidates.empty()) return Miss{"no_quadrilateral", "no four edges around something dark"};
+  // The same angle in the colour image.
+  const double clear_px =
+      clear_px_ * pinhole_.parameters().fx_px / calibration_.depth.parameters().fx_px;
+  PlaneSeeds found = FindPlaneSeeds(
+      candidates, points, pinhole_, calibration_.X_KD,
+      {.limits = limits_, .noise = noise_, .setback_m = options_.setback_m, .clear_px = clear_px});
+  if (found.seeds.empty()) {
+    if (found.without_plane == static_cast<int>(candidates.size())) {
+      return Miss{"no_depth", fmt::format("{} dark quadrilaterals, no plane around any of them",
+                                          candidates.size())};
+    }
+    return Miss{"not_a_rectangle",
+                fmt::format("{} dark quadrilaterals, none of them a rectangle on the plane "
+                            "around it",
+                            candidates.size())};
+  }
+  if (found.seeds.size() > static_cast<size_t>(options_.most_candidates)) {
+    found.seeds.resize(static_cast<size_t>(options_.most_candidates));
+  }
+  return std::move(found.seeds);
+}
+
+std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
+    const Sight& sight, Candidate& candidate) const {
+  const CameraView& view = sight.view;
+  FrameFit rough = candidate.rough;
+  FrameRectangle& frame = rough.adjustment.frame;
+  const auto border = FindBorder(view, frame, fitting_.border);
+  frame.border_m = border ? border->border_m : GuessedBorder(frame);
+  auto measured = MeasureFramePlanes(sight.points, frame, candidate.seed.wall, calibration_.depth,
+                                     {.noise = noise_,
+                                      .clear_px = clear_px_,
+                                      .setback_m = options_.setback_m,
+                                      .setback_sigma_m = options_.setback_sigma_m});
+  if (const Miss* miss = std::get_if<Miss>(&measured)) return *miss;
+  FramePlanes& planes = std::get<FramePlanes>(measured);
+  const Eigen::Vector3d p_DK = calibration_.X_KD.inverse().translation();
+  frame = WithHiddenSides(Moved(frame, p_DK, planes.setback_m - options_.setback_m), p_DK,
+                          planes.setback_m);
+  candidate.fitter.UsePlanes(planes.planes);
+  auto result = candidate.fitter.Finish(rough);
+  if (const Miss* miss = std::get_if<Miss>(&result)) return *miss;
+  Finished finished{std::move(std::get<FrameFit>(result)), std::move(planes), {}};
+  const FrameRectangle& fitted = finished.fit.adjustment.frame;
+  if (auto objection = Objection(sight, fitted)) return *objection;
+  finished.estimate = fitted.ToEstimate();
+  finished.estimate.covariance_C = finished.fit.adjustment.covariance.block<3, 3>(3, 3);
+  // The rough fit cannot hide behind freedoms that it did not have.
+  finished.estimate.score = 0.5 * (candidate.score + FrameScore(view, finished.fit, darkness_));
+  return finished;
+}
+
+std::optional<Miss> PlaneRgbdDetector::Objection(const Sight& sight,
+                                                 const FrameRectangle& fitted) const {
+  if (auto objection = ObjectionToFrame(fitted, limits_)) return objection;
+  const double clarity = FrameClarity(sight.view, fitted, darkness_);
+  if (clarity < options_.min_darkness) {
+    return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
+                                        "{:.2f}, {:.2f} are needed",
+                                        clarity, options_.min_darkness)};
+  }
+  if (!options_.prior.knows_color()) return std::nullopt;
+  const double share = ShareOfColor(options_.prior, sight.images.color, sight.view, fitted);
+  if (share >= kLeastOfColor) return std::nullopt;
+  return Miss{"unexpected_color", fmt::format("only {:.0f} % of the frame has its colour, {:.0f} % "
+                                              "are needed",
+                                              100.0 * share, 100.0 * kLeastOfColor)};
+}
+
+Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<PlaneSeed>& seeds,
+                                     StageLog& log) const {
+  const CameraView& view = sight.view;
+  const std::span<const CameraView> views(&view, 1);
+  std::optional<Miss> objection;
+  const auto object = [&objection](const Miss& miss) {
+    if (!objection) objection = miss;
+  };
+  std::vector<Candidate> candidates;
+  for (const PlaneSeed& seed : seeds) {
+    FrameFitSettings settings = fitting_;
+    settings.planes = {
+        {.m = seed.wall.m, .information = seed.wall.information, .relief_m = options_.setback_m}};
+    FrameFitter fitter(views, settings);
+    auto rough = fitter.FitRoughly(seed.frame);
+    if (!rough) continue;
+    if (const auto other = ObjectionToPrior(rough->adjustment.frame, options_.prior)) {
+      object(*other);
+      continue;
+    }
+    const double score = FrameScore(view, *rough, darkness_);
+    candidates.push_back({seed, std::move(fitter), std::move(*rough), score});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::vector<Finished> found;
+  int tried = 0;
+  for (Candidate& candidate : candidates) {
+    if (found.size() == static_cast<size_t>(options_.most_windows)) break;
+    if (tried++ == kMostFinished) break;
+    if (!found.empty() && candidate.score < kHopeless * *found.front().estimate.score) break;
+    auto result = Finish(sight, candidate);
+    if (const Miss* miss = std::get_if<Miss>(&result)) {
+      object(*miss);
+    } else {
+      found.push_back(std::move(std::get<Finished>(result)));
+    }
+  }
+  if (found.empty()) {
+    return objection.value_or(Miss{"no_edges", "too few edge points to fix a rectangle"});
+  }
+  log.Begin("choose");
+  std::stable_sort(found.begin(), found.end(), [](const Finished& a, const Finished& b) {
+    return *a.estimate.score > *b.estimate.score;
+  });
+  log.Picture("edge_points", [&] { return DrawEdgePoints(views, found.front().fit); },
+              {PictureView{view.camera, view.X_CL}});
+  log.Picture("depth_use",
+              [&] { return DrawDepthUse(sight.images.depth, found.front().planes, reader_); },
+              {PictureView{calibration_.depth, Pose()}});
+  WindowEstimate chosen = found.front().estimate;
+  for (size_t i = 1; i < found.size(); ++i) chosen.others.push_back(found[i].estimate);
+  return chosen;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,59 @@
+#include "vision/rgbd/plane_seed.h"
+
+#include "vision/rgbd/frame_depth.h"
+
+namespace fenestra {
+namespace {
+
+// Of the points around a quadrilateral; one in two is enough to find their plane.
+constexpr size_t kEvery = 2;
+constexpr int kLeastPoints = 40;
+constexpr double kLeastShare = 0.4;  // Of them, on the plane.
+constexpr uint64_t kTriples = 1;     // The same samples for every image.
+
+std::vector<DepthPoint> Sparse(const std::vector<DepthPoint>& points) {
+  std::vector<DepthPoint> sparse;
+  sparse.reserve(points.size() / kEvery + 1);
+  for (size_t i = 0; i < points.size(); i += kEvery) sparse.push_back(points[i]);
+  return sparse;
+}
+
+}  // namespace
+
+PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
+                          const std::vector<DepthPoint>& points, const CameraModel& color,
+                          const Pose& X_KD, const PlaneSeedSettings& settings) {
+  const std::vector<DepthPoint> sparse = Sparse(points);
+  PlaneSeeds found;
+  for (const DarkQuadrilateral& candidate : candidates) {
+    const auto around = PointsAround(sparse, candidate.corners_px, settings.clear_px);
+    const auto wall = FindDepthPlane(around, settings.noise, kLeastPoints, RandomStream(kTriples));
+    if (!wall || wall->inliers < kLeastShare * static_cast<double>(around.size())) {
+      ++found.without_plane;
+      continue;
+    }
+    const auto corners =
+        CornersOnPlane(candidate.corners_px, color, X_KD, wall->m, settings.setback_m);
+    if (!corners || !AreCornersOfFrame(*corners, settings.limits)) continue;
+    found.seeds.push_back(
+        {.frame = WithHiddenSides(FrameRectangle::FromCorners(*corners),
+                                  X_KD.inverse().translation(), settings.setback_m),
+         .wall = *wall,
+         .clarity = candidate.clarity});
+  }
+  return found;
+}
+
+FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3d& p_LC,
+                               double setback_m) {
+  FrameRectangle moved = frame;
+  if (!(setback_m > 0.0)) return moved;
+  const Eigen::Vector3d p_OC = frame.R_LO.transpose() * (p_LC - frame.p_LO);
+  const std::array<bool, 4> is_hidden = {
+      p_OC.y() > 0.5 * frame.height_m, p_OC.x() > 0.5 * frame.width_m,
+      p_OC.y() < -0.5 * frame.height_m, p_OC.x() < -0.5 * frame.width_m};
+  for (size_t i = 0; i < 4; ++i) moved.outer_relief_m[i] = is_hidden[i] ? setback_m : 0.0;
+  return moved;
+}
+
+}  // namespace fenestra
