@@ -236,9 +236,12 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
                                       .setback_sigma_m = options_.setback_sigma_m});
   if (const Miss* miss = std::get_if<Miss>(&measured)) return *miss;
   FramePlanes& planes = std::get<FramePlanes>(measured);
-  const Eigen::Vector3d p_DK = calibration_.X_KD.inverse().translation();
-  frame = WithHiddenSides(Moved(frame, p_DK, planes.setback_m - options_.setback_m), p_DK,
-                          planes.setback_m);
+  if (planes.setback_m != options_.setback_m) {
+    const Eigen::Vector3d p_DK = calibration_.X_KD.inverse().translation();
+    frame.outer_relief_m = {};
+    frame = WithHiddenSides(Moved(frame, p_DK, planes.setback_m - options_.setback_m), p_DK,
+                            planes.setback_m);
+  }
   candidate.fitter.UsePlanes(planes.planes);
   auto result = candidate.fitter.Finish(rough);
   if (const Miss* miss = std::get_if<Miss>(&result)) return *miss;
