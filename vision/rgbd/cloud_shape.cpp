@@ -13,8 +13,11 @@ std::optional<CloudShape> ShapeOf(const std::vector<Eigen::Vector3d>& points_K,
   if (!plane) return std::nullopt;
   std::vector<Eigen::Vector2d> feet;
   std::vector<double> depths_m;
+  double squares_m2 = 0.0;
   for (const Eigen::Vector3d& p_KQ : points_K) {
-    if (std::abs(plane->SignedDistance(p_KQ)) <= tolerance.At(p_KQ.z())) {
+    const double distance_m = plane->SignedDistance(p_KQ);
+    if (std::abs(distance_m) <= tolerance.At(p_KQ.z())) {
+      squares_m2 += distance_m * distance_m;
       feet.push_back(plane->Coordinates(p_KQ));
       depths_m.push_back(p_KQ.z());
     }
@@ -25,7 +28,12 @@ std::optional<CloudShape> ShapeOf(const std::vector<Eigen::Vector3d>& points_K,
   if (!(area_m2 > 0.0)) return std::nullopt;
   const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
   std::nth_element(depths_m.begin(), middle, depths_m.end());
-  return CloudShape{.plane = *plane, .hull_area_m2 = area_m2, .median_depth_m = *middle};
+  const double count = static_cast<double>(depths_m.size());
+  return CloudShape{.plane = *plane,
+                    .hull_area_m2 = area_m2,
+                    .median_depth_m = *middle,
+                    .inlier_share = count / static_cast<double>(points_K.size()),
+                    .scatter_m = std::sqrt(squares_m2 / count)};
 }
 
 }  // namespace fenestra

@@ -13,6 +13,8 @@ struct CloudShape {
   Plane plane;
   double hull_area_m2 = 0.0;
   double median_depth_m = 0.0;
+  double inlier_share = 0.0;  ///< Of the cloud's points, on its plane.
+  double scatter_m = 0.0;     ///< Root mean square of their distances from it.
 };
 
 /// nullopt if the points do not span a plane.

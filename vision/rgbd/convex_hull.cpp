@@ -1,6 +1,7 @@
 #include "vision/rgbd/convex_hull.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace fenestra {
@@ -29,11 +30,36 @@ std::vector<int> LeftTurningChain(const std::vector<Vector2d>& points,
   return chain;
 }
 
+// The points but those that lie inside the quadrilateral of the outermost ones along the diagonals,
+// by S. G. Akl and G. T. Toussaint, "A fast convex hull algorithm", 1978: none of these is on the
+// hull, and of a cloud they are most.
+std::vector<int> MaybeOnHull(const std::vector<Vector2d>& points) {
+  std::vector<int> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  if (points.size() < 64) return all;
+  const std::array<Vector2d, 4> outwards = {Vector2d(-1, -1), {1, -1}, {1, 1}, {-1, 1}};
+  std::array<Vector2d, 4> corner;
+  for (size_t k = 0; k < 4; ++k) {
+    corner[k] = *std::max_element(points.begin(), points.end(), [&](const auto& a, const auto& b) {
+      return outwards[k].dot(a) < outwards[k].dot(b);
+    });
+  }
+  std::erase_if(all, [&](int i) {
+    const Vector2d& p = points[static_cast<size_t>(i)];
+    for (size_t k = 0; k < 4; ++k) {
+      // A margin, so that rounding does not decide.
+      const Vector2d side = corner[(k + 1) % 4] - corner[k];
+      if (!(Cross(side, p - corner[k]) > 1e-9 * side.squaredNorm())) return false;
+    }
+    return true;
+  });
+  return all;
+}
+
 }  // namespace
 
 std::vector<int> ConvexHull(const std::vector<Vector2d>& points) {
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
+  std::vector<int> order = MaybeOnHull(points);
   const auto before = [&points](int i, int j) {
     const Vector2d& a = points[static_cast<size_t>(i)];
     const Vector2d& b = points[static_cast<size_t>(j)];

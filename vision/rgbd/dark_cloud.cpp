@@ -1,5 +1,6 @@
 #include "vision/rgbd/dark_cloud.h"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
@@ -32,21 +33,24 @@ DarkCloud SegmentDark(const RegisteredImages& images, const CameraModel& camera,
   return CloudOf(mask, images.depth_m, camera);
 }
 
-DarkCloud LargestComponent(const DarkCloud& cloud, const CameraModel& camera) {
+std::vector<DarkCloud> ConnectedParts(const DarkCloud& cloud, const CameraModel& camera,
+                                      int min_points, size_t most) {
   const cv::Mat1b with_depth = cloud.depth_m > 0.0f;
   cv::Mat1i labels;
   cv::Mat1i stats;
   cv::Mat1d centroids;
   const int count = cv::connectedComponentsWithStats(with_depth, labels, stats, centroids, 8);
-  int largest = 0;  // Label 0 is the background.
-  for (int label = 1; label < count; ++label) {
-    if (largest == 0 || stats(label, cv::CC_STAT_AREA) > stats(largest, cv::CC_STAT_AREA)) {
-      largest = label;
-    }
+  std::vector<int> large;
+  for (int label = 1; label < count; ++label) {  // Label 0 is the background.
+    if (stats(label, cv::CC_STAT_AREA) >= min_points) large.push_back(label);
   }
-  if (largest == 0) return cloud;
-  const cv::Mat1b mask = labels == largest;
-  return CloudOf(mask, cloud.depth_m, camera);
+  std::stable_sort(large.begin(), large.end(), [&stats](int a, int b) {
+    return stats(a, cv::CC_STAT_AREA) > stats(b, cv::CC_STAT_AREA);
+  });
+  if (large.size() > most) large.resize(most);
+  std::vector<DarkCloud> parts;
+  for (const int label : large) parts.push_back(CloudOf(labels == label, cloud.depth_m, camera));
+  return parts;
 }
 
 }  // namespace fenestra

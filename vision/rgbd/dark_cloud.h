@@ -30,8 +30,10 @@ DarkCloud SegmentDark(const RegisteredImages& images, const CameraModel& camera,
 /// have: those whose `mask` is not 0.
 DarkCloud CloudOf(const cv::Mat1b& mask, const cv::Mat1f& depth_m, const CameraModel& camera);
 
-/// The cloud's largest part that is connected (8 neighbours) in the image, and only its mask. Not
-/// in the paper, whose target is the only dark thing in view.
-DarkCloud LargestComponent(const DarkCloud& cloud, const CameraModel& camera);
+/// The cloud's parts that are connected (8 neighbours) in the image, each with its own mask: at
+/// most `most` of at least `min_points`, the largest first. Not in the paper, whose target is the
+/// only dark thing in view.
+std::vector<DarkCloud> ConnectedParts(const DarkCloud& cloud, const CameraModel& camera,
+                                      int min_points, size_t most);
 
 }  // namespace fenestra

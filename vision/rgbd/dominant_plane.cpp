@@ -83,14 +83,17 @@ std::optional<Plane> DominantPlane(const Points& points_K, const PlaneTolerance&
     const double u = triples.Uniform(static_cast<uint64_t>(index));
     return scored[static_cast<size_t>(u * static_cast<double>(scored.size()))];
   };
+  std::vector<double> tolerances_m;
+  for (const Eigen::Vector3d& p_KQ : scored) tolerances_m.push_back(tolerance.At(p_KQ.z()));
   std::optional<Plane> best;
-  std::ptrdiff_t most = 0;
+  int most = 0;
   for (int i = 0; i < kTriples; ++i) {
     const auto plane = Through(draw(3 * i), draw(3 * i + 1), draw(3 * i + 2));
     if (!plane) continue;
-    const auto inliers =
-        std::count_if(scored.begin(), scored.end(),
-                      [&](const Eigen::Vector3d& p_KQ) { return IsOn(*plane, tolerance, p_KQ); });
+    int inliers = 0;
+    for (size_t j = 0; j < scored.size(); ++j) {
+      inliers += std::abs(plane->SignedDistance(scored[j])) <= tolerances_m[j] ? 1 : 0;
+    }
     if (inliers > most) {
       most = inliers;
       best = plane;

@@ -57,7 +57,9 @@ FrameVertices ChooseFrameVertices(const std::vector<KeyPoint>& key_points, const
     corners.push_back(feet[static_cast<size_t>(i)]);
     i = on_plane[static_cast<size_t>(i)];
   }
-  return {.chosen = chosen, .miss = ShapeFault(corners, shape.hull_area_m2, limits)};
+  return {.chosen = chosen,
+          .miss = ShapeFault(corners, shape.hull_area_m2, limits),
+          .area_fraction = SignedArea(corners) / shape.hull_area_m2};
 }
 
 }  // namespace fenestra

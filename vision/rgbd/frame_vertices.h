@@ -21,6 +21,7 @@ struct FrameLimits {
 struct FrameVertices {
   std::optional<std::array<int, 4>> chosen;
   std::optional<Miss> miss;
+  double area_fraction = 0.0;  ///< Of the chosen four, over that of the cloud's hull.
 };
 
 /// Takes the key points that lie on the cloud's plane, and of their feet on it the largest

@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "core/input_error.h"
-#include "vision/rgbd/cloud_shape.h"
-#include "vision/rgbd/dark_cloud.h"
-#include "vision/rgbd/diagonals.h"
+#include "vision/rgbd/crossing_covariance.h"
 #include "vision/rgbd/frame_vertices.h"
 #include "vision/rgbd/narf_key_points.h"
+#include "vision/rgbd/opening.h"
 #include "vision/rgbd/pictures.h"
 #include "vision/rgbd/vertices.h"
 
@@ -36,6 +35,8 @@ RgbdCalibration Checked(const RgbdCalibration& calibration) {
   return calibration;
 }
 
+// Parts of a cloud that are searched on their own; each costs a NARF.
+constexpr size_t kMostParts = 8;
 // Key points lie up to this share of a side inside of its ends.
 constexpr double kSideShare = 0.25;
 
@@ -82,6 +83,10 @@ double SupportSize(const CloudShape& shape, double px_per_m, const PaperRgbdOpti
                   options.max_support_px / px_per_m);
 }
 
+PlaneTolerance ToleranceOf(const PaperRgbdOptions& options) {
+  return {.fixed_m = options.plane_tolerance_m, .per_z2 = options.plane_tolerance_per_m};
+}
+
 // Ends the running stage however Detect is left.
 class StageEnd {
  public:
@@ -118,22 +123,43 @@ Detection PaperRgbdDetector::Detect(const Observation& observation, StageLog& lo
   log.Picture("segmentation", [&] { return DrawSegmentation(registered, cloud); }, {view});
   log.Cloud("cloud", [&] { return CloudInDepthFrame(cloud, calibration_.X_KD.inverse()); });
   if (const auto fault = CloudFault(cloud, options_)) return *fault;
-  return FindFrame(cloud, log);
+  const std::vector<DarkCloud> parts = Split(cloud);
+  if (parts.empty()) return Miss{"cloud_too_small", "no connected part has enough points"};
+  std::vector<WindowEstimate> found;
+  std::optional<Miss> first_miss;
+  for (const DarkCloud& part : parts) {
+    const Detection one = FindFrame(part, log, found.empty() && !first_miss);
+    if (const auto* estimate = std::get_if<WindowEstimate>(&one)) {
+      found.push_back(*estimate);
+    } else if (!first_miss) {
+      first_miss = std::get<Miss>(one);
+    }
+  }
+  if (found.empty()) return *first_miss;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return *a.score > *b.score; });
+  WindowEstimate best = found.front();
+  best.others.assign(found.begin() + 1, found.end());
+  return best;
 }
 
 DarkCloud PaperRgbdDetector::Segment(const RegisteredImages& registered) const {
   const CameraModel& camera = registration_.working_camera();
-  const DarkCloud cloud =
-      options_.prior.knows_color()
-          ? CloudOf(ExpectedColor(options_.prior, registered.color), registered.depth_m, camera)
-          : SegmentDark(registered, camera, options_.dark_below_dn);
-  return options_.cloud == "all" ? cloud : LargestComponent(cloud, camera);
+  return options_.prior.knows_color()
+             ? CloudOf(ExpectedColor(options_.prior, registered.color), registered.depth_m, camera)
+             : SegmentDark(registered, camera, options_.dark_below_dn);
 }
 
-Detection PaperRgbdDetector::FindFrame(const DarkCloud& cloud, StageLog& log) const {
+std::vector<DarkCloud> PaperRgbdDetector::Split(const DarkCloud& cloud) const {
+  if (options_.cloud == "all") return {cloud};
+  return ConnectedParts(cloud, registration_.working_camera(), options_.min_cloud_points,
+                        options_.cloud == "largest_component" ? 1 : kMostParts);
+}
+
+Detection PaperRgbdDetector::FindFrame(const DarkCloud& cloud, StageLog& log,
+                                       bool with_pictures) const {
   log.Begin("range_image");
-  const PlaneTolerance tolerance{.fixed_m = options_.plane_tolerance_m,
-                                 .per_z2 = options_.plane_tolerance_per_m};
+  const PlaneTolerance tolerance = ToleranceOf(options_);
   const auto shape = ShapeOf(cloud.points_K, tolerance, RandomStream(kPlaneSeed));
   if (!shape) return Miss{"no_plane", "the dark points do not span a plane"};
   const CameraModel& camera = registration_.working_camera();
@@ -142,32 +168,54 @@ Detection PaperRgbdDetector::FindFrame(const DarkCloud& cloud, StageLog& log) co
 
   log.Begin("narf");
   const double px_per_m = camera.parameters().fx_px / (stride * shape->median_depth_m);
-  const std::vector<KeyPoint> key_points =
-      range_image.DetectKeyPoints({.support_size_m = SupportSize(*shape, px_per_m, options_),
-                                   .min_interest_value = options_.min_interest_value});
+  const double support_m = SupportSize(*shape, px_per_m, options_);
+  const std::vector<KeyPoint> key_points = range_image.DetectKeyPoints(
+      {.support_size_m = support_m, .min_interest_value = options_.min_interest_value});
 
   log.Begin("vertices");
   const FrameVertices vertices = ChooseFrameVertices(
       key_points, *shape, tolerance,
       {.min_area_fraction = options_.min_area_fraction, .min_side_ratio = options_.min_side_ratio});
-  log.Picture("range_image",
-              [&] { return DrawKeyPoints(cloud.depth_m, key_points, vertices.chosen); },
-              {{camera.Scaled(kKeyPointPictureScale), calibration_.X_KD}});
+  if (with_pictures) {
+    log.Picture("range_image",
+                [&] { return DrawKeyPoints(cloud.depth_m, key_points, vertices.chosen); },
+                {{camera.Scaled(kKeyPointPictureScale), calibration_.X_KD}});
+  }
   if (vertices.miss) return *vertices.miss;
 
   log.Begin("centroid");
-  return Estimate(VerticesOf(key_points, *vertices.chosen), shape->plane);
+  return Estimate(cloud, *shape, VerticesOf(key_points, *vertices.chosen), vertices.area_fraction,
+                  support_m);
 }
 
-Detection PaperRgbdDetector::Estimate(const FourVertices& p_KV, const Plane& plane) const {
+Detection PaperRgbdDetector::Estimate(const DarkCloud& cloud, const CloudShape& shape,
+                                      const FourVertices& p_KV, double area_fraction,
+                                      double support_m) const {
   const auto crossing = CrossDiagonals(p_KV);
   if (!crossing) return Miss{"not_a_quadrilateral", "the diagonals do not cross"};
+  const double filled =
+      FilledShare(cloud, registration_.working_camera(), shape.plane, ToleranceOf(options_), p_KV);
+  if (filled > options_.max_filled_share) {
+    return Miss{"not_open", fmt::format("{:.2f} of the middle are dark and on the plane; {:.2f} "
+                                        "are allowed",
+                                        filled, options_.max_filled_share)};
+  }
+  const double depth_m = crossing->p_CO.z();
+  const Eigen::Matrix3d covariance_K = CrossingCovariance(
+      p_KV, shape.plane,
+      {.expected_m = options_.key_point_sigma_share * support_m,
+       .expected_weight = options_.key_point_sigma_weight,
+       .across_m = shape.scatter_m,
+       .common_m = options_.depth_step_per_m * depth_m * depth_m / std::sqrt(12.0)});
   const Pose X_DK = calibration_.X_KD.inverse();
   FourVertices p_DV;
   for (size_t i = 0; i < 4; ++i) p_DV[i] = X_DK * p_KV[i];
-  const WindowEstimate estimate{.p_CO = X_DK * crossing->p_CO,
-                                .p_CV = OrderedAsSeen(p_DV),
-                                .normal_C = X_DK.rotation() * plane.normal_K};
+  const WindowEstimate estimate{
+      .p_CO = X_DK * crossing->p_CO,
+      .p_CV = OrderedAsSeen(p_DV),
+      .normal_C = X_DK.rotation() * shape.plane.normal_K,
+      .covariance_C = X_DK.rotation() * covariance_K * X_DK.rotation().transpose(),
+      .score = std::min(1.0, area_fraction) * shape.inlier_share * (1.0 - filled)};
   if (auto objection = ObjectionOf(options_.prior, estimate, kSideShare)) return *objection;
   return estimate;
 }

@@ -2,6 +2,7 @@
 
 #include "core/calibration.h"
 #include "core/detector.h"
+#include "vision/rgbd/cloud_shape.h"
 #include "vision/rgbd/dark_cloud.h"
 #include "vision/rgbd/depth_registration.h"
 #include "vision/rgbd/diagonals.h"
@@ -23,10 +24,12 @@ namespace fenestra {
 /// The vertices are the key points themselves. NARF places those on stable surface *inside* of the
 /// frame's corners, so p_CV lies some per cent of the side inside of the true outline, on either
 /// side alike, which leaves the centroid free of it to first order. The normal is that of the
-/// plane.
+/// plane, the covariance that of crossing_covariance.h. The score is the quadrilateral's share of
+/// the cloud's hull, times the cloud's share on its plane, times what of its middle is free.
 ///
 /// Misses: no_dark_pixels, no_depth_on_dark_pixels, cloud_too_small, no_plane, too_few_key_points,
-/// not_a_quadrilateral, implausible_shape.
+/// not_a_quadrilateral, implausible_shape; not_open with max_filled_share; unexpected_size and
+/// unexpected_shape with a prior.
 class PaperRgbdDetector : public Detector {
  public:
   /// Throws InputError for options out of range, a depth unit that is not positive, or a colour
@@ -38,8 +41,11 @@ class PaperRgbdDetector : public Detector {
 
  private:
   DarkCloud Segment(const RegisteredImages& registered) const;
-  Detection FindFrame(const DarkCloud& cloud, StageLog& log) const;
-  Detection Estimate(const FourVertices& p_KV, const Plane& plane) const;
+  /// What is searched one after the other.
+  std::vector<DarkCloud> Split(const DarkCloud& cloud) const;
+  Detection FindFrame(const DarkCloud& cloud, StageLog& log, bool with_pictures) const;
+  Detection Estimate(const DarkCloud& cloud, const CloudShape& shape, const FourVertices& p_KV,
+                     double area_fraction, double support_m) const;
 
   RgbdCalibration calibration_;
   PaperRgbdOptions options_;

@@ -15,7 +15,8 @@ Table MakeTable() {
           "dark_below_dn", [](Options& o) -> int& { return o.dark_below_dn; }, {1, 256},
           "a pixel is dark if R, G and B are all below this (Algorithm 1: 50)")
       .Choice(
-          "cloud", [](Options& o) -> std::string& { return o.cloud; }, {"all", "largest_component"},
+          "cloud", [](Options& o) -> std::string& { return o.cloud; },
+          {"all", "largest_component", "each_component"},
           "which dark pixels make the cloud; the paper takes all")
       .Integer(
           "min_cloud_points", [](Options& o) -> int& { return o.min_cloud_points; }, {3, 1e9},
@@ -50,6 +51,18 @@ Table MakeTable() {
       .Number(
           "min_side_ratio", [](Options& o) -> double& { return o.min_side_ratio; }, {0.0, 1.0},
           "smallest ratio of the shortest to the longest side")
+      .Number(
+          "max_filled_share", [](Options& o) -> double& { return o.max_filled_share; }, {0.0, 1.0},
+          "how much of the middle may be dark and on the plane; 1: not looked at, as in the paper")
+      .Number(
+          "key_point_sigma_share", [](Options& o) -> double& { return o.key_point_sigma_share; },
+          {0.0, 2.0}, "standard deviation of a vertex over NARF's support size, for the covariance")
+      .Number(
+          "key_point_sigma_weight", [](Options& o) -> double& { return o.key_point_sigma_weight; },
+          {0.0, 1000.0}, "weight of that against the vertices' own residuals")
+      .Number(
+          "depth_step_per_m", [](Options& o) -> double& { return o.depth_step_per_m; }, {0.0, 1.0},
+          "step of the depth per square of the depth (m/m²), for the covariance")
       .Adopt<WindowPrior>(PriorParameters(SensorKind::kRgbd),
                           [](Options& o) -> WindowPrior& { return o.prior; });
   return table;

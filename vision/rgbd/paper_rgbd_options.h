@@ -12,8 +12,9 @@ struct PaperRgbdOptions {
   /// Algorithm 1: a pixel is dark if each of its channels is below this [8-bit sRGB].
   int dark_below_dn = 50;
 
-  /// "all" dark pixels with depth, as in the paper, or only the "largest_component" of them. The
-  /// paper's target is the only dark thing in view, so there the two agree.
+  /// "all" dark pixels with depth, as in the paper, or only the "largest_component" of them, or
+  /// "each_component" on its own: then the one with the best score is the estimate and the others
+  /// go with it. The paper's target is the only dark thing in view, so there the three agree.
   std::string cloud = "all";
 
   /// Fewer points than this are not searched. A 1 m frame with a 0.1 m border seen from 8 m, twice
@@ -54,6 +55,19 @@ struct PaperRgbdOptions {
   double min_area_fraction = 0.5;
   /// Shortest over longest side: windows are not slits.
   double min_side_ratio = 0.25;
+
+  /// How much of the quadrilateral's middle may be dark and on its plane, see opening.h. 1, since
+  /// the paper does not look: a dark board, or carpet, is a window to it. 0.5 refuses those.
+  double max_filled_share = 1.0;
+
+  // For the covariance, see crossing_covariance.h.
+  /// Where key points lie within NARF's support, as a share of its size: half of the patch that is
+  /// judged may lie to either side of an edge, and noise and missing dots choose.
+  double key_point_sigma_share = 0.1;
+  /// As many residuals as a frame itself gives.
+  double key_point_sigma_weight = 3.0;
+  /// A step of the Kinect's depth, per square of the depth (m/m²): 1/8 px of disparity.
+  double depth_step_per_m = 0.00285;
 
   /// What is known beforehand; nothing by default. A known colour of the frame takes the place of
   /// dark_below_dn.

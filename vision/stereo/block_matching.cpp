@@ -30,6 +30,8 @@ cv::Ptr<cv::StereoBM> MakeMatcher(const BlockMatchingSettings& settings) {
   return matcher;
 }
 
+}  // namespace
+
 cv::Mat1s MatchPadded(const RectifiedPair& pair, const BlockMatchingSettings& settings) {
   const int rim = settings.window_px / 2;
   const int left_pad = settings.farthest_disparity_px + SearchedDisparities(settings) - 1 + rim;
@@ -41,8 +43,6 @@ cv::Mat1s MatchPadded(const RectifiedPair& pair, const BlockMatchingSettings& se
   return raw(cv::Rect({left_pad, rim}, pair.left.size())).clone();
 }
 
-}  // namespace
-
 cv::Mat1f MatchBlocks(const RectifiedPair& pair, const cv::Mat1b& left_seen,
                       const cv::Mat1b& right_seen, const BlockMatchingSettings& settings) {
   FENESTRA_CHECK(pair.left.size() == pair.right.size() && pair.left.size() == left_seen.size() &&
@@ -53,20 +53,25 @@ cv::Mat1f MatchBlocks(const RectifiedPair& pair, const cv::Mat1b& left_seen,
                  "disparities in order");
   cv::Mat1s raw = MatchPadded(pair, settings);
   const int none = (settings.farthest_disparity_px - 1) * kSubpixels;
-  cv::Mat1f disparity(raw.size());
   for (int v = 0; v < raw.rows; ++v) {
+    short* row = raw[v];
+    const uchar* left_row = left_seen[v];
+    const uchar* right_row = right_seen[v];
     for (int u = 0; u < raw.cols; ++u) {
-      const int d = raw(v, u);
+      const int d = row[u];
+      if (d <= 0 || d <= none) {
+        row[u] = 0;
+        continue;
+      }
       const int u_right = u - (d + kSubpixels / 2) / kSubpixels;
-      const bool seen =
-          d > 0 && d > none && left_seen(v, u) != 0 && u_right >= 0 && right_seen(v, u_right) != 0;
-      if (!seen) raw(v, u) = 0;
+      if (left_row[u] == 0 || u_right < 0 || right_row[u_right] == 0) row[u] = 0;
     }
   }
   if (settings.speckle_area_px > 0) {
     cv::filterSpeckles(raw, 0, settings.speckle_area_px,
                        static_cast<int>(std::lround(settings.speckle_step_px * kSubpixels)));
   }
+  cv::Mat1f disparity;
   raw.convertTo(disparity, CV_32F, 1.0 / kSubpixels);
   return disparity;
 }

@@ -17,6 +17,11 @@ struct BlockMatchingSettings {
   bool left_right_check;      ///< Drop pixels whose match is matched to another pixel.
 };
 
+/// cv::StereoBM on the padded pair, and nothing else: disparities in its sixteenths, or less than
+/// 16 `farthest_disparity_px` for none. What MatchBlocks begins with, and what its time is measured
+/// against.
+cv::Mat1s MatchPadded(const RectifiedPair& pair, const BlockMatchingSettings& settings);
+
 /// Disparity d [px] of each pixel of the left image, to 1/16 px; 0 where there is none.
 ///
 /// For each left pixel the disparity with the least sum of absolute differences over a square

@@ -19,11 +19,20 @@ struct DepthRange {
 /// 64 to 255, so that the step from nothing to the nearest depth is an edge as well.
 cv::Mat1b ToEightBit(const cv::Mat1f& depth_m, const DepthRange& range);
 
+/// The part of a depth image that holds anything; 0 elsewhere.
+struct DepthPatch {
+  cv::Rect box;
+  cv::Mat1f depth_m;  ///< Of the box.
+
+  /// As an image of this size, in which the box must lie.
+  cv::Mat1f In(const cv::Size& size) const;
+};
+
 /// The depth image with the contour closed (the paper's Fig. 5): the depth of `plane` on a ring of
 /// `thickness_px` along the inside of the convex `hull`, and on the matched pixels within the hull
-/// that lie on the plane. 0 elsewhere.
-cv::Mat1f CloseGaps(const cv::Mat1f& disparity, const std::vector<cv::Point>& hull,
-                    const DisparityPlane& plane, double plane_tolerance_px, int thickness_px,
-                    const RectifiedCamera& camera);
+/// that lie on the plane. Within the box of the hull, as there is nothing outside.
+DepthPatch CloseGaps(const cv::Mat1f& disparity, const std::vector<cv::Point>& hull,
+                     const DisparityPlane& plane, double plane_tolerance_px, int thickness_px,
+                     const RectifiedCamera& camera);
 
 }  // namespace fenestra

@@ -80,17 +80,12 @@ double FilledOpeningRows(const Quadrilateral& q, int window_px, const DisparityP
   return filled / static_cast<double>(kProbes);
 }
 
-std::optional<FrameHypothesis> CloseContour(const Group& group, const FrameCriteria& criteria) {
-  FrameHypothesis hypothesis;
+std::optional<FrameHypothesis> Outline(const Group& group) {
+  FrameHypothesis hypothesis{.hull = {}, .corners_px = {}, .plane = {}, .patches = group};
   std::vector<cv::Point> points;
-  std::vector<DisparitySample> samples;
   for (const MatchedPatch* patch : group) {
     points.insert(points.end(), patch->hull.begin(), patch->hull.end());
-    samples.insert(samples.end(), patch->samples.begin(), patch->samples.end());
   }
-  const auto fit = FitDisparityPlane(samples, criteria.plane_tolerance_px);
-  if (!fit || fit->inlier_share < criteria.min_inlier_share) return std::nullopt;
-  hypothesis.plane = fit->plane;
   cv::convexHull(points, hypothesis.hull);
   const auto corners = FitQuadrilateral(hypothesis.hull);
   if (!corners) return std::nullopt;
@@ -98,8 +93,22 @@ std::optional<FrameHypothesis> CloseContour(const Group& group, const FrameCrite
   return hypothesis;
 }
 
-std::optional<Miss> Objection(const FrameHypothesis& hypothesis, const cv::Mat1f& disparity,
-                              const RectifiedCamera& camera, const FrameCriteria& criteria) {
+// Fits the plane; false if it does not hold the patches.
+bool FitPlane(FrameHypothesis& hypothesis, const FrameCriteria& criteria) {
+  std::vector<DisparitySample> samples;
+  for (const MatchedPatch* patch : hypothesis.patches) {
+    samples.insert(samples.end(), patch->samples.begin(), patch->samples.end());
+  }
+  const auto fit = FitDisparityPlane(samples, criteria.plane_tolerance_px);
+  if (!fit || fit->inlier_share < criteria.min_inlier_share) return false;
+  hypothesis.plane = fit->plane;
+  hypothesis.score = fit->inlier_share;
+  return true;
+}
+
+// Judges a hypothesis whose score so far is the share of its matches on its plane.
+std::optional<Miss> Judge(FrameHypothesis& hypothesis, const cv::Mat1f& disparity,
+                          const RectifiedCamera& camera, const FrameCriteria& criteria) {
   const Quadrilateral& q = hypothesis.corners_px;
   const auto estimate = WindowOnPlane(q, hypothesis.plane, camera);
   if (!estimate) return Miss{"implausible_shape", "the plane meets the horizon"};
@@ -121,7 +130,26 @@ std::optional<Miss> Objection(const FrameHypothesis& hypothesis, const cv::Mat1f
                 fmt::format("{:.0f} % of the opening's rows are matched in the frame's plane",
                             100.0 * filled)};
   }
+  hypothesis.score *= support * (1.0 - filled);
   return std::nullopt;
+}
+
+// Hypotheses by one or two patches without their planes, the largest in the image first.
+std::vector<FrameHypothesis> Outlines(const std::vector<Group>& groups) {
+  std::vector<FrameHypothesis> outlines;
+  for (const Group& group : groups) {
+    if (auto outline = Outline(group)) outlines.push_back(std::move(*outline));
+  }
+  std::stable_sort(outlines.begin(), outlines.end(), [](const auto& a, const auto& b) {
+    return Area(a.corners_px) > Area(b.corners_px);
+  });
+  return outlines;
+}
+
+bool CentreIsWithin(const FrameHypothesis& inner, const FrameHypothesis& outer) {
+  const Eigen::Vector2d centre = At(inner.corners_px, 0.5, 0.5);
+  return cv::pointPolygonTest(outer.hull, cv::Point2f(cv::Point2d(centre.x(), centre.y())),
+                              false) >= 0.0;
 }
 
 std::vector<Group> Groups(const std::vector<MatchedPatch>& patches, double min_row_overlap) {
@@ -165,27 +193,28 @@ std::optional<Miss> ObjectionToShape(const WindowEstimate& estimate_F,
   return ObjectionOf(criteria.prior, estimate_F, kSideShare);
 }
 
-std::variant<FrameHypothesis, Miss> FindFrame(const std::vector<MatchedPatch>& patches,
-                                              const cv::Mat1f& disparity,
-                                              const RectifiedCamera& camera,
-                                              const FrameCriteria& criteria) {
-  std::optional<FrameHypothesis> best;
+std::variant<std::vector<FrameHypothesis>, Miss> FindFrames(
+    const std::vector<MatchedPatch>& patches, const cv::Mat1f& disparity,
+    const RectifiedCamera& camera, const FrameCriteria& criteria, size_t most) {
+  std::vector<FrameHypothesis> found;
   std::optional<Miss> objection_to_largest;
-  double largest_px2 = 0.0;
-  for (const Group& group : Groups(patches, criteria.min_row_overlap)) {
-    const auto hypothesis = CloseContour(group, criteria);
-    if (!hypothesis) continue;
-    const double area_px2 = Area(hypothesis->corners_px);
-    if (best && area_px2 <= Area(best->corners_px)) continue;
-    const auto objection = Objection(*hypothesis, disparity, camera, criteria);
-    if (!objection) {
-      best = hypothesis;
-    } else if (area_px2 > largest_px2) {
-      objection_to_largest = objection;
-      largest_px2 = area_px2;
+  for (FrameHypothesis& hypothesis : Outlines(Groups(patches, criteria.min_row_overlap))) {
+    if (found.size() == most) break;
+    const bool known = std::any_of(found.begin(), found.end(), [&](const FrameHypothesis& other) {
+      return CentreIsWithin(hypothesis, other);
+    });
+    if (known || !FitPlane(hypothesis, criteria)) continue;
+    if (auto objection = Judge(hypothesis, disparity, camera, criteria)) {
+      if (!objection_to_largest) objection_to_largest = objection;
+      continue;
     }
+    found.push_back(std::move(hypothesis));
   }
-  if (best) return *best;
+  if (!found.empty()) {
+    std::stable_sort(found.begin(), found.end(),
+                     [](const auto& a, const auto& b) { return a.score > b.score; });
+    return found;
+  }
   if (objection_to_largest) return *objection_to_largest;
   return Miss{"no_component_pair",
               fmt::format("{} matched patches, no two of them in one plane and the same rows",

@@ -35,13 +35,17 @@ struct FrameHypothesis {
   std::vector<cv::Point> hull;  ///< Convex; the closed contour, fattened by the SAD window.
   Quadrilateral corners_px;     ///< Of the hull.
   DisparityPlane plane;
+  std::vector<const MatchedPatch*> patches;  ///< One or two, that it was made of.
+  /// How much speaks for it, 0 to 1: share of its matches on the plane, times that of its less
+  /// matched side, times that of the opening's rows that are free.
+  double score = 0.0;
 };
 
 /// "implausible_shape", or an objection of the prior, with what was wrong; or nothing.
 std::optional<Miss> ObjectionToShape(const WindowEstimate& estimate_F,
                                      const FrameCriteria& criteria);
 
-/// The frame among the patches.
+/// The frames among the patches.
 ///
 /// On a plain wall only the vertical sides of a frame have a disparity; the horizontal ones slide
 /// along themselves (aperture problem). So what closes the contour is the convex hull of *two*
@@ -51,13 +55,14 @@ std::optional<Miss> ObjectionToShape(const WindowEstimate& estimate_F,
 ///
 /// A hypothesis is kept if its patches cover the same rows, its plane holds them, its two vertical
 /// sides are matched along their length, its opening is not filled in the frame's own plane
-/// (whatever can be flown through has no surface there), and its shape is plausible. The largest
-/// in the image wins, as a frame's outer edge encloses its inner one.
+/// (whatever can be flown through has no surface there), and its shape is plausible. Of those whose
+/// centre lies within another one only the larger is kept, as a frame's outer edge encloses its
+/// inner one; at most `most` of the others, the largest in the image, ordered by score. They refer
+/// to `patches`.
 ///
 /// Miss: "no_component_pair" or "implausible_shape", by how far the best hypothesis came.
-std::variant<FrameHypothesis, Miss> FindFrame(const std::vector<MatchedPatch>& patches,
-                                              const cv::Mat1f& disparity,
-                                              const RectifiedCamera& camera,
-                                              const FrameCriteria& criteria);
+std::variant<std::vector<FrameHypothesis>, Miss> FindFrames(
+    const std::vector<MatchedPatch>& patches, const cv::Mat1f& disparity,
+    const RectifiedCamera& camera, const FrameCriteria& criteria, size_t most);
 
 }  // namespace fenestra

@@ -40,16 +40,15 @@ Band AroundPatch(const MatchedPatch& patch, float d, int height,
 
 }  // namespace
 
-cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left_seen,
-                                const cv::Mat1b& right_seen, const BlockMatchingSettings& settings,
-                                const cv::Mat1f& disparity,
-                                const std::vector<MatchedPatch>& patches,
-                                double narrowest_in_baselines) {
+std::optional<cv::Mat1f> MatchAgainNearPatches(
+    const RectifiedPair& pair, const cv::Mat1b& left_seen, const cv::Mat1b& right_seen,
+    const BlockMatchingSettings& settings, const cv::Mat1f& disparity,
+    const std::vector<MatchedPatch>& patches, double narrowest_in_baselines) {
   std::vector<const MatchedPatch*> tallest;
   for (const MatchedPatch& patch : patches) tallest.push_back(&patch);
   std::stable_sort(tallest.begin(), tallest.end(),
                    [](const auto* p, const auto* q) { return p->box.height > q->box.height; });
-  cv::Mat1f result = disparity.clone();
+  cv::Mat1f result;
   // A double may be tall enough to be searched for, too: what the taller patch explained stays.
   cv::Mat1b open(disparity.size(), 255);
   std::vector<float> searched;
@@ -62,6 +61,7 @@ cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left
     });
     if (unique || done) continue;
     searched.push_back(d);
+    if (result.empty()) result = disparity.clone();
     const Band band = AroundPatch(*patch, d, disparity.rows, settings);
     const cv::Mat1f again =
         MatchBlocks({pair.left.rowRange(band.rows), pair.right.rowRange(band.rows)},
@@ -70,6 +70,7 @@ cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left
     again.copyTo(result.rowRange(band.rows), found);
     open.rowRange(band.rows).setTo(0, found);
   }
+  if (result.empty()) return std::nullopt;
   return result;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "vision/stereo/block_matching.h"
 #include "vision/stereo/matched_patch.h"
 
@@ -22,11 +24,11 @@ namespace fenestra {
 ///
 /// `disparity` is the result of the first search with the same pair and settings; new matches
 /// replace old ones, those near a taller patch first. Nothing is done for a patch with d (1 + s /
-/// B) beyond the search range for the narrowest frame, s / B = `narrowest_in_baselines`.
-cv::Mat1f MatchAgainNearPatches(const RectifiedPair& pair, const cv::Mat1b& left_seen,
-                                const cv::Mat1b& right_seen, const BlockMatchingSettings& settings,
-                                const cv::Mat1f& disparity,
-                                const std::vector<MatchedPatch>& patches,
-                                double narrowest_in_baselines);
+/// B) beyond the search range for the narrowest frame, s / B = `narrowest_in_baselines`; nullopt if
+/// nothing is done at all.
+std::optional<cv::Mat1f> MatchAgainNearPatches(
+    const RectifiedPair& pair, const cv::Mat1b& left_seen, const cv::Mat1b& right_seen,
+    const BlockMatchingSettings& settings, const cv::Mat1f& disparity,
+    const std::vector<MatchedPatch>& patches, double narrowest_in_baselines);
 
 }  // namespace fenestra

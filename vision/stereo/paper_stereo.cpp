@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "vision/frame/darkness.h"
 #include "vision/stereo/closed_contour.h"
 #include "vision/stereo/depth_image.h"
 #include "vision/stereo/guided_matching.h"
@@ -19,22 +20,6 @@ namespace {
 const PaperStereoOptions& Validated(const PaperStereoOptions& options) {
   Validate(options);
   return options;
-}
-
-BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
-                                       const RectifiedCamera& camera, int width_px) {
-  // A disparity of the image's width or more has nothing to match.
-  const auto limited = [width_px](double d) { return std::clamp(d, 0.0, width_px - 1.0); };
-  return {.window_px = options.sad_window_px,
-          .nearest_disparity_px =
-              static_cast<int>(limited(std::ceil(camera.DisparityFromDepth(options.nearest_m)))),
-          .farthest_disparity_px =
-              static_cast<int>(limited(std::floor(camera.DisparityFromDepth(options.farthest_m)))),
-          .uniqueness_percent = options.uniqueness_percent,
-          .texture_threshold = options.texture_threshold,
-          .speckle_area_px = options.speckle_area_px,
-          .speckle_step_px = options.speckle_step_px,
-          .left_right_check = options.left_right_check};
 }
 
 FrameCriteria Criteria(const PaperStereoOptions& options) {
@@ -64,6 +49,22 @@ const StereoObservation& StereoPart(const Observation& observation) {
 
 }  // namespace
 
+BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
+                                       const RectifiedCamera& camera, int width_px) {
+  // A disparity of the image's width or more has nothing to match.
+  const auto limited = [width_px](double d) { return std::clamp(d, 0.0, width_px - 1.0); };
+  return {.window_px = options.sad_window_px,
+          .nearest_disparity_px =
+              static_cast<int>(limited(std::ceil(camera.DisparityFromDepth(options.nearest_m)))),
+          .farthest_disparity_px =
+              static_cast<int>(limited(std::floor(camera.DisparityFromDepth(options.farthest_m)))),
+          .uniqueness_percent = options.uniqueness_percent,
+          .texture_threshold = options.texture_threshold,
+          .speckle_area_px = options.speckle_area_px,
+          .speckle_step_px = options.speckle_step_px,
+          .left_right_check = options.left_right_check};
+}
+
 PaperStereoDetector::PaperStereoDetector(const StereoCalibration& calibration,
                                          const PaperStereoOptions& options)
     : options_(Validated(options)),
@@ -75,7 +76,10 @@ PaperStereoDetector::PaperStereoDetector(const StereoCalibration& calibration,
                .min_height_px = options.min_band_height_px,
                .disparity_step_px = options.speckle_step_px},
       criteria_(Criteria(options)),
-      range_{options.nearest_m, options.farthest_m} {}
+      range_{options.nearest_m, options.farthest_m},
+      errors_{.window_px = static_cast<double>(options.sad_window_px),
+              .subpixel_bias_px = options.subpixel_bias_px,
+              .contour_px = options.contour_sigma_px} {}
 
 Detection PaperStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   log.Begin("rectify");
@@ -84,41 +88,66 @@ Detection PaperStereoDetector::Detect(const Observation& observation, StageLog& 
   log.Picture("rectified", [&] { return DrawRectifiedPair(pair); }, {views[0], views[1]});
 
   log.Begin("match");
-  const cv::Mat1f disparity = Match(pair);
+  const Matches matches = Match(pair);
 
   log.Begin("depth_image");
-  const cv::Mat1f depth_m = DepthFromDisparity(disparity, rectification_.camera());
+  const cv::Mat1f depth_m = DepthFromDisparity(matches.disparity, rectification_.camera());
   log.Picture("depth_image", [&] { return DrawDepth(depth_m, range_); }, {views[0]});
 
   log.Begin("close_gaps");
-  Detection detection = FindWindow(disparity, log);
+  Detection detection = FindWindows(pair, matches, log);
   log.End();
   return detection;
 }
 
-Detection PaperStereoDetector::FindWindow(const cv::Mat1f& disparity, StageLog& log) const {
-  const std::vector<MatchedPatch> patches = FindPatches(disparity, patches_);
-  if (patches.empty()) {
-    return Miss{"no_matches", fmt::format("no matched patch is {} px tall; {} pixels are matched",
-                                          patches_.min_height_px, cv::countNonZero(disparity))};
+Detection PaperStereoDetector::FindWindows(const RectifiedPair& pair, const Matches& matches,
+                                           StageLog& log) const {
+  if (matches.patches.empty()) {
+    return Miss{"no_matches",
+                fmt::format("no matched patch is {} px tall; {} pixels are matched",
+                            patches_.min_height_px, cv::countNonZero(matches.disparity))};
   }
-  const auto found = FindFrame(patches, disparity, rectification_.camera(), criteria_);
-  if (const Miss* miss = std::get_if<Miss>(&found)) return *miss;
-  const FrameHypothesis& frame = std::get<FrameHypothesis>(found);
-  const cv::Mat1f closed_m =
-      CloseGaps(disparity, frame.hull, frame.plane, options_.plane_tolerance_px,
-                options_.sad_window_px, rectification_.camera());
+  const auto frames = FindFrames(matches.patches, matches.disparity, rectification_.camera(),
+                                 criteria_, static_cast<size_t>(options_.most_windows));
+  if (const Miss* miss = std::get_if<Miss>(&frames)) return *miss;
+  std::optional<Miss> first_miss;
+  std::vector<WindowEstimate> windows;
+  for (const FrameHypothesis& frame : std::get<std::vector<FrameHypothesis>>(frames)) {
+    log.Begin("close_gaps");
+    const DepthPatch closed =
+        CloseGaps(matches.disparity, frame.hull, frame.plane, options_.plane_tolerance_px,
+                  options_.sad_window_px, rectification_.camera());
+    const Detection one = MeasureFrame(pair, frame, closed, log, windows.empty() && !first_miss);
+    if (const auto* window = std::get_if<WindowEstimate>(&one)) {
+      windows.push_back(*window);
+    } else if (!first_miss) {
+      first_miss = std::get<Miss>(one);
+    }
+  }
+  if (windows.empty()) return *first_miss;
+  WindowEstimate best = windows.front();
+  best.others.assign(windows.begin() + 1, windows.end());
+  return best;
+}
+
+Detection PaperStereoDetector::MeasureFrame(const RectifiedPair& pair, const FrameHypothesis& frame,
+                                            const DepthPatch& closed, StageLog& log,
+                                            bool with_pictures) const {
   const PictureView view = RectifiedViews(rectification_)[0];
-  log.Picture("closed_contour", [&] { return DrawDepth(closed_m, range_); }, {view});
-
+  const cv::Size size = pair.left.size();
+  if (with_pictures) {
+    log.Picture("closed_contour", [&] { return DrawDepth(closed.In(size), range_); }, {view});
+  }
   log.Begin("edges");
-  const cv::Mat1b edges =
-      DetectEdges(ToEightBit(closed_m, range_), {options_.canny_low_dn, options_.canny_high_dn});
-  log.Picture("edges", [&] { return cv::Mat(edges); }, {view});
-
+  const cv::Mat1b edges = DetectEdges(ToEightBit(closed.depth_m, range_),
+                                      {options_.canny_low_dn, options_.canny_high_dn});
+  if (with_pictures) {
+    log.Picture("edges", [&] { return DrawEdges(edges, closed.box, size); }, {view});
+  }
   log.Begin("contour");
-  const auto contour = LargestClosedContour(edges);
+  auto contour = LargestClosedContour(edges);
   if (!contour) return Miss{"no_contour", "no edge of the depth image is a closed curve"};
+  for (cv::Point& point : *contour) point += closed.box.tl();
   const auto corners_px = FindCorners(*contour);
   if (!corners_px) {
     return Miss{"not_a_quadrilateral",
@@ -129,17 +158,42 @@ Detection PaperStereoDetector::FindWindow(const cv::Mat1f& disparity, StageLog& 
   const auto estimate_F = WindowOnPlane(*corners_px, frame.plane, rectification_.camera());
   if (!estimate_F) return Miss{"implausible_shape", "the frame's plane meets the horizon"};
   if (auto objection = ObjectionToShape(*estimate_F, criteria_)) return *objection;
-  return Rotated(rectification_.R_LF(), *estimate_F);
+  if (options_.prior.knows_grey()) {
+    const double ratio = DarkOverBright(pair.left, {corners_px->begin(), corners_px->end()},
+                                        {.black_dn = options_.black_dn,
+                                         .min_contrast_dn = 1.0,
+                                         .reach_px = 0.5 * options_.sad_window_px});
+    if (auto objection = ObjectionOf(options_.prior, ratio)) return *objection;
+  }
+  return Rotated(rectification_.R_LF(), WithCovariance(*estimate_F, frame));
 }
 
-cv::Mat1f PaperStereoDetector::Match(const RectifiedPair& pair) const {
+WindowEstimate PaperStereoDetector::WithCovariance(const WindowEstimate& estimate_F,
+                                                   const FrameHypothesis& frame) const {
+  const RectifiedCamera& camera = rectification_.camera();
+  const Eigen::Vector3d& p_FO = estimate_F.p_CO;
+  const Eigen::Vector2d pixel(camera.f_px * p_FO.x() / p_FO.z() + camera.cx_px,
+                              camera.f_px * p_FO.y() / p_FO.z() + camera.cy_px);
+  WindowEstimate estimate = estimate_F;
+  estimate.score = frame.score;
+  if (const auto variance_px2 = DisparityVariance(frame.patches, frame.plane,
+                                                  options_.plane_tolerance_px, pixel, errors_)) {
+    estimate.covariance_C = CentreCovariance(pixel, frame.plane, *variance_px2, camera, errors_);
+  }
+  return estimate;
+}
+
+PaperStereoDetector::Matches PaperStereoDetector::Match(const RectifiedPair& pair) const {
   const cv::Mat1b& left_seen = rectification_.left_seen();
   const cv::Mat1b& right_seen = rectification_.right_seen();
   const cv::Mat1f disparity = MatchBlocks(pair, left_seen, right_seen, matching_);
-  if (!options_.guided_search) return disparity;
-  return MatchAgainNearPatches(pair, left_seen, right_seen, matching_, disparity,
-                               FindPatches(disparity, patches_),
-                               options_.min_side_m / rectification_.camera().baseline_m);
+  std::vector<MatchedPatch> patches = FindPatches(disparity, patches_);
+  if (!options_.guided_search) return {disparity, std::move(patches)};
+  const auto again =
+      MatchAgainNearPatches(pair, left_seen, right_seen, matching_, disparity, patches,
+                            options_.min_side_m / rectification_.camera().baseline_m);
+  if (!again) return {disparity, std::move(patches)};
+  return {*again, FindPatches(*again, patches_)};
 }
 
 std::optional<Quadrilateral> PaperStereoDetector::FindCorners(

@@ -7,8 +7,14 @@
 #include "vision/stereo/frame_hypothesis.h"
 #include "vision/stereo/paper_stereo_options.h"
 #include "vision/stereo/rectification.h"
+#include "vision/stereo/window_covariance.h"
 
 namespace fenestra {
+
+/// What these options make of block matching with a rectified camera whose images are `width_px`
+/// wide.
+BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
+                                       const RectifiedCamera& camera, int width_px);
 
 /// The stereo method of S. Zhou, G. Flores, R. Lozano and P. Castillo, "Vision-based window
 /// estimation for MAV in unknown urban environments", IFAC RED-UAS 2013, section 3.
@@ -22,10 +28,10 @@ namespace fenestra {
 ///   contour       the closed contour's four sides                            quadrilateral.h
 ///   centroid      corners on the frame's plane, meeting of the diagonals     window_rectangle.h
 ///
-/// Estimates are in L, the unrectified left camera. They carry no covariance: neighbouring matches
-/// share their windows and, worse, their sub-pixel bias, so that residuals say little of the
-/// plane's error. Pictures in the log: "rectified",
-/// "depth_image", "closed_contour", "edges".
+/// Estimates are in L, the unrectified left camera, with the covariance that window_covariance.h
+/// makes of the plane's residuals and two stated errors of block matching, given the calibration.
+/// The window with the best score comes first, others with it. Pictures in the log: "rectified",
+/// "depth_image", and of the best "closed_contour" and "edges".
 ///
 /// Departures from the paper, which is brief: contours are closed across the frame's horizontal
 /// sides, which block matching cannot see; a second search near the first result; corners are
@@ -39,14 +45,24 @@ class PaperStereoDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
   /// Miss: "no_matches", "no_component_pair", "no_contour", "not_a_quadrilateral",
-  /// "implausible_shape".
+  /// "implausible_shape"; "unexpected_size", "unexpected_shape", "unexpected_grey" with a prior.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
-  cv::Mat1f Match(const RectifiedPair& pair) const;
+  /// Disparities, and the patches that they make.
+  struct Matches {
+    cv::Mat1f disparity;
+    std::vector<MatchedPatch> patches;
+  };
+  Matches Match(const RectifiedPair& pair) const;
   /// The stages from close_gaps on.
-  Detection FindWindow(const cv::Mat1f& disparity, StageLog& log) const;
+  Detection FindWindows(const RectifiedPair& pair, const Matches& matches, StageLog& log) const;
+  /// Those from edges on, for one frame.
+  Detection MeasureFrame(const RectifiedPair& pair, const FrameHypothesis& frame,
+                         const DepthPatch& closed, StageLog& log, bool with_pictures) const;
   std::optional<Quadrilateral> FindCorners(const std::vector<cv::Point>& contour) const;
+  WindowEstimate WithCovariance(const WindowEstimate& estimate_F,
+                                const FrameHypothesis& frame) const;
 
   PaperStereoOptions options_;
   StereoRectification rectification_;
@@ -54,6 +70,7 @@ class PaperStereoDetector : public Detector {
   PatchSettings patches_;
   FrameCriteria criteria_;
   DepthRange range_;
+  MatchErrors errors_;
 };
 
 }  // namespace fenestra

@@ -76,6 +76,14 @@ void AddShape(Table& table) {
               "hysteresis: weakest edge that continues a stronger one")
       .Number("canny_high_dn", FENESTRA_FIELD(canny_high_dn), {1.0, 1020.0},
               "hysteresis: weakest edge that begins a contour")
+      .Integer("most_windows", FENESTRA_FIELD(most_windows), {1.0, 100.0},
+               "windows that are reported, the best first")
+      .Number("subpixel_bias_px", FENESTRA_FIELD(subpixel_bias_px), {0.0, 2.0},
+              "standard deviation of the disparity of a whole side, for the covariance")
+      .Number("contour_sigma_px", FENESTRA_FIELD(contour_sigma_px), {0.0, 50.0},
+              "standard deviation of a contour's side, for the covariance")
+      .Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0},
+              "grey value without light, for expected_grey_ratio")
       .Switch("undo_fattening", FENESTRA_FIELD(undo_fattening),
               "move the contour in by half a SAD window");
 }

@@ -64,6 +64,20 @@ struct PaperStereoOptions {
   double max_skew_rad = 0.2617993877991494;
   double max_taper = 0.25;
 
+  // The estimate and its covariance.
+  /// The paper has one window in view; the largest in the image come first, as many as this.
+  int most_windows = 3;
+  /// What a whole side's disparity is off by: a parabola through SAD sums errs with the phase of an
+  /// upright edge against the pixels. From the depth errors without noise, 0.035 px of a window's
+  /// disparity, times √2 for one of its two sides.
+  double subpixel_bias_px = 0.05;
+  /// Where a band begins: its first match is a pixel early or late. From the errors across the
+  /// optical axis, 0.6 to 0.9 px of the centre, times √2.
+  double contour_sigma_px = 1.1;
+
+  /// Grey value without light, for a prior's grey ratio: 32 of 1023, the usual pedestal of a
+  /// sensor's ADC, as 8 bits show it.
+  double black_dn = 8.0;
   /// What is known beforehand; nothing by default, as in the paper.
   WindowPrior prior;
 

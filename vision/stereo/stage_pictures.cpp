@@ -2,6 +2,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "vision/stereo/closed_contour.h"
+
 namespace fenestra {
 namespace {
 
@@ -50,6 +52,12 @@ cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range) {
   cv::applyColorMap(gray, picture, cv::COLORMAP_TURBO);
   picture.setTo(cv::Scalar::all(0), depth_m <= 0.0f);
   return picture;
+}
+
+cv::Mat1b DrawEdges(const cv::Mat1b& edges, const cv::Rect& box, const cv::Size& size) {
+  cv::Mat1b whole(size.height + 2 * kEdgeRim_px, size.width + 2 * kEdgeRim_px, uint8_t{0});
+  edges.copyTo(whole(cv::Rect(box.tl(), edges.size())));
+  return whole(cv::Rect({kEdgeRim_px, kEdgeRim_px}, size)).clone();
 }
 
 }  // namespace fenestra

@@ -42,12 +42,12 @@ TEST(SegmentDark, CountsButLeavesOutPixelsWithoutDepth) {
   EXPECT_EQ(cloud.points_K.size(), 11u);
 }
 
-TEST(LargestComponent, KeepsTheLargestConnectedPart) {
+TEST(ConnectedParts, KeepsTheLargestConnectedPart) {
   RegisteredImages images = Bright();
   for (const cv::Point& p : {cv::Point(0, 0), cv::Point(1, 1), cv::Point(3, 0)}) {
     images.color(p) = {0, 0, 0};  // (0, 0) and (1, 1) touch at a corner; (3, 0) stands apart.
   }
-  const DarkCloud largest = LargestComponent(SegmentDark(images, kCamera, 50), kCamera);
+  const DarkCloud largest = ConnectedParts(SegmentDark(images, kCamera, 50), kCamera, 1, 1).at(0);
   EXPECT_EQ(largest.points_K.size(), 2u);
   EXPECT_EQ(largest.depth_m(0, 3), 0.0f);
 }

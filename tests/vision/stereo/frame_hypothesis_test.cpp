@@ -40,7 +40,11 @@ std::variant<FrameHypothesis, Miss> Find(const cv::Mat1f& disparity) {
                                                .gap_width_px = 5,
                                                .min_height_px = 20,
                                                .disparity_step_px = 1.0});
-  return FindFrame(patches, disparity, kCamera, kCriteria);
+  const auto found = FindFrames(patches, disparity, kCamera, kCriteria, 3);
+  if (const Miss* miss = std::get_if<Miss>(&found)) return *miss;
+  FrameHypothesis best = std::get<std::vector<FrameHypothesis>>(found).front();
+  best.patches.clear();  // They end here.
+  return best;
 }
 
 std::string Reason(const cv::Mat1f& disparity) {
