@@ -10,6 +10,13 @@
 namespace fenestra {
 
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes) {
+  WriteFileAtomically(file, [bytes](std::ostream& stream) {
+    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  });
+}
+
+void WriteFileAtomically(const std::filesystem::path& file,
+                         const std::function<void(std::ostream&)>& write) {
   static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
@@ -18,7 +25,12 @@ void WriteFileAtomically(const std::filesystem::path& file, std::string_view byt
   temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
   {
     std::ofstream stream(temporary, std::ios::binary);
-    stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    try {
+      write(stream);
+    } catch (...) {
+      std::filesystem::remove(temporary, error);
+      throw;
+    }
     stream.close();
     if (!stream) {
       std::filesystem::remove(temporary, error);

@@ -8,56 +8,26 @@
 #include "core/calibration.h"
 #include "core/detector.h"
 #include "experiments/calibration_cache.h"
-#include "experiments/sampling.h"
-#include "experiments/study.h"
-#include "experiments/theory/trial_information.h"
-#include "experiments/trial_record.h"
+#include "experiments/trial_bench.h"
 #include "renderers/ray_caster.h"
-#include "sim/ground_truth.h"
 #include "sim/stereo_rig.h"
 #include "sim/structured_light_sensor.h"
 
 namespace fenestra {
 
-/// One trial up to the point where detectors take over.
-struct SimulatedTrial {
-  Trial trial;
-  SensorCalibration calibration;  ///< What detectors are told.
-  Observation observation;
-  GroundTruth truth;
-  /// What the observation tells of the target; nullopt where theory has no word for it.
-  std::optional<TrialInformation> information;
-};
-
-/// One detector's attempt at a simulated trial.
-struct Attempt {
-  TrialRecord record;
-  StageLog log;
-};
-
 /// All that the trials of one cell share, made once: the scene with its ray tracing structures,
 /// the sensor, the detectors. What a study draws anew in every trial is made anew in every trial.
-/// Const calls are thread-safe and single-threaded inside; a trial's result depends on the study,
-/// the cell and the trial's index alone.
-class CellBench {
+class CellBench final : public TrialBench {
  public:
   /// Keeps references to neither argument.
   CellBench(const Study& study, const Cell& cell);
 
-  const Cell& cell() const { return cell_; }
-  const std::vector<DetectorChoice>& detectors() const { return detector_choices_; }
-
-  SimulatedTrial Simulate(int trial_index) const;
-
-  /// Runs one detector on what it may see, then scores. A detector that throws is recorded as
-  /// crashed.
-  Attempt Try(size_t detector, const SimulatedTrial& simulated, bool keep_artifacts) const;
-
-  /// Per-pixel truth of the left (stereo) or depth camera.
-  TruthImages TruthOf(const SimulatedTrial& simulated) const;
-  /// The depth image with what detectors never see of it: why pixels have no return, and the
-  /// infra-red image if there is one. nullopt for stereo.
-  std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const;
+  const Cell& cell() const override { return cell_; }
+  const std::vector<DetectorChoice>& detectors() const override { return detector_choices_; }
+  SimulatedTrial Simulate(int trial_index) const override;
+  Attempt Try(size_t detector, const SimulatedTrial& simulated, bool keep_artifacts) const override;
+  TruthImages TruthOf(const SimulatedTrial& simulated) const override;
+  std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const override;
 
  private:
   /// A scene and its ray tracing structures; fixed in memory.

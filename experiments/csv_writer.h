@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fenestra {
@@ -20,6 +21,8 @@ class CsvWriter {
   void EndLine();
 
   const std::string& text() const { return text_; }
+  /// What was written since the last call.
+  std::string TakeText() { return std::exchange(text_, {}); }
 
  private:
   std::string text_;

@@ -5,12 +5,10 @@
 #include <bit>
 
 #include "core/input_error.h"
-#include "experiments/run_study.h"
+#include "experiments/result_files.h"
 #include "experiments/run_trials.h"
 #include "experiments/store.h"
-#include "experiments/study_reader.h"
 #include "experiments/trial_files.h"
-#include "vision/detector_registry.h"
 
 namespace fenestra {
 namespace {
@@ -64,20 +62,15 @@ std::vector<std::string> Differences(const TrialRecord& recorded, const TrialRec
 
 std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, int trial,
                                 const std::filesystem::path& out) {
-  const bool folder = std::filesystem::is_directory(results);
-  const std::filesystem::path file = folder ? results / "results.sqlite" : results;
+  const std::filesystem::path file = StoreFile(results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
   std::vector<ReplayedRow> rows;
-  for (const TrialRecord& record : store.Rows()) {
-    if (record.cell == cell && record.trial == trial) rows.push_back({record, {}, {}});
-  }
+  for (const TrialRecord& record : store.RowsOf({cell, trial})) rows.push_back({record, {}, {}});
   if (rows.empty()) {
     throw InputError(file, fmt::format("holds no trial {}/{} (cell/trial)", cell, trial));
   }
 
-  const Study study =
-      ReadStudy(YamlReader::FromText(store.Metadata().at(kMetaStudy), file.string() + " (study)"),
-                Detectors());
+  const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   const std::vector<TrialKey> trials = {{cell, trial}};
   const RunOptions options{.jobs = 1, .keep_artifacts = [&](TrialKey) { return !out.empty(); }};

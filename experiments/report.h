@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
@@ -20,6 +22,12 @@ namespace fenestra {
 /// One line per row: key, factors, outcome, errors [mm], estimate and truth [m], and last the
 /// times [ms], which are all that differs between two runs of one study.
 std::string TrialsCsv(std::span<const TrialRecord> records);
+
+/// Shows rows to a visitor, all of them every time it is called.
+using RowPass = std::function<void(const std::function<void(const TrialRecord&)>&)>;
+
+/// The same text for rows that are not all in memory. Makes two passes: columns, then lines.
+void WriteTrialsCsv(const RowPass& for_each_row, std::ostream& out);
 
 /// One line per cell and detector.
 std::string SummaryCsv(std::span<const CellSummary> summaries);

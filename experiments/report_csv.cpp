@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ostream>
+#include <sstream>
 
 #include "experiments/csv_writer.h"
 #include "experiments/number_format.h"
@@ -16,23 +18,18 @@ void AppendNew(const std::string& name, Names& names) {
   if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
 }
 
-// A factor may be a level in one part and drawn in another: it has one column all the same.
-Names FactorNames(std::span<const TrialRecord> records) {
-  Names names;
-  for (const TrialRecord& record : records) {
-    for (const auto& factor : record.levels) AppendNew(factor.first, names);
-    for (const auto& factor : record.drawn) AppendNew(factor.first, names);
-  }
-  return names;
-}
+// The columns that depend on the rows, in the order in which they first occur. A factor may be a
+// level in one part and drawn in another: it has one column all the same.
+struct RowColumns {
+  Names factors;
+  Names stages;
 
-Names StageNames(std::span<const TrialRecord> records) {
-  Names names;
-  for (const TrialRecord& record : records) {
-    for (const StageTime& stage : record.stages) AppendNew(stage.stage, names);
+  void AppendNewOf(const TrialRecord& record) {
+    for (const auto& factor : record.levels) AppendNew(factor.first, factors);
+    for (const auto& factor : record.drawn) AppendNew(factor.first, factors);
+    for (const StageTime& stage : record.stages) AppendNew(stage.stage, stages);
   }
-  return names;
-}
+};
 
 Names TimeColumns(const std::string& total, const Names& stages) {
   Names columns = {total};
@@ -57,12 +54,12 @@ void AddVector(const std::optional<Eigen::Vector3d>& v, CsvWriter& csv) {
   for (int axis = 0; axis < 3; ++axis) csv.Add(v ? std::optional((*v)[axis]) : std::nullopt);
 }
 
-void AddTrialHeader(const Names& factors, const Names& stages, CsvWriter& csv) {
-  csv.AddAll({"part", "sensor", "cell", "trial", "detector"}).AddAll(factors);
+void AddTrialHeader(const RowColumns& columns, CsvWriter& csv) {
+  csv.AddAll({"part", "sensor", "cell", "trial", "detector"}).AddAll(columns.factors);
   csv.AddAll({"outcome", "reason", "detail"}).AddAll(EstimateColumns());
   csv.AddAll({"truth_x_m", "truth_y_m", "truth_z_m"});
   csv.AddAll({"bound_x_mm", "bound_y_mm", "bound_z_mm"});
-  csv.AddAll(TimeColumns("time_total_ms", stages)).EndLine();
+  csv.AddAll(TimeColumns("time_total_ms", columns.stages)).EndLine();
 }
 
 void AddScore(const Score& score, CsvWriter& csv) {
@@ -151,26 +148,41 @@ std::string ReasonText(const std::vector<ReasonCount>& reasons) {
   return text;
 }
 
+void AddTrialLine(const TrialRecord& record, const RowColumns& columns, CsvWriter& csv) {
+  csv.Add(record.part).Add(ToString(record.sensor)).Add(record.cell).Add(record.trial);
+  csv.Add(record.detector);
+  FactorValues values = record.levels;
+  values.insert(values.end(), record.drawn.begin(), record.drawn.end());
+  for (const std::string& factor : columns.factors) csv.Add(LevelText(values, factor));
+  AddScore(record.score, csv);
+  AddVector(BoundOf_mm(record), csv);
+  csv.Add(ToMilli(record.TotalSeconds()));
+  for (const std::string& stage : columns.stages) csv.Add(ToMilli(SecondsOf(record, stage)));
+  csv.EndLine();
+}
+
 }  // namespace
 
-std::string TrialsCsv(std::span<const TrialRecord> records) {
-  const Names factors = FactorNames(records);
-  const Names stages = StageNames(records);
+void WriteTrialsCsv(const RowPass& for_each_row, std::ostream& out) {
+  RowColumns columns;
+  for_each_row([&](const TrialRecord& record) { columns.AppendNewOf(record); });
   CsvWriter csv;
-  AddTrialHeader(factors, stages, csv);
-  for (const TrialRecord& record : records) {
-    csv.Add(record.part).Add(ToString(record.sensor)).Add(record.cell).Add(record.trial);
-    csv.Add(record.detector);
-    FactorValues values = record.levels;
-    values.insert(values.end(), record.drawn.begin(), record.drawn.end());
-    for (const std::string& factor : factors) csv.Add(LevelText(values, factor));
-    AddScore(record.score, csv);
-    AddVector(BoundOf_mm(record), csv);
-    csv.Add(ToMilli(record.TotalSeconds()));
-    for (const std::string& stage : stages) csv.Add(ToMilli(SecondsOf(record, stage)));
-    csv.EndLine();
-  }
-  return csv.text();
+  AddTrialHeader(columns, csv);
+  for_each_row([&](const TrialRecord& record) {
+    AddTrialLine(record, columns, csv);
+    out << csv.TakeText();
+  });
+  out << csv.TakeText();  // The header, if there are no rows.
+}
+
+std::string TrialsCsv(std::span<const TrialRecord> records) {
+  std::ostringstream out;
+  WriteTrialsCsv(
+      [records](const auto& visit) {
+        for (const TrialRecord& record : records) visit(record);
+      },
+      out);
+  return out.str();
 }
 
 std::string SummaryCsv(std::span<const CellSummary> summaries) {

@@ -1,73 +1,120 @@
 #include "experiments/run_study.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "core/atomic_file.h"
-#include "experiments/prior_text.h"
-#include "experiments/report.h"
-#include "experiments/run_trials.h"
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "core/input_error.h"
+#include "experiments/folder_lock.h"
+#include "experiments/result_files.h"
+#include "experiments/run_identity.h"
 #include "experiments/store.h"
-#include "experiments/study_writer.h"
 #include "experiments/trial_files.h"
+#include "experiments/trial_writer.h"
 #include "experiments/versions.h"
 
 namespace fenestra {
 namespace {
 
+std::string UtcNow() {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+}
+
 StoreMetadata MetadataOf(const StudyRun& run) {
-  return {{kMetaStudy, ToYaml(run.study)}, {kMetaStudyText, run.study_text},
-          {"name", run.study.name},        {"seed", std::to_string(run.study.seed)},
-          {"version", Version()},          {"libraries", LibraryVersions()},
-          {"processor", Processor()},      {"jobs", std::to_string(run.jobs)}};
+  StoreMetadata metadata = {{"study_text", run.study_text},
+                            {"name", run.study.name},
+                            {"description", run.study.description},
+                            {"seed", std::to_string(run.study.seed)},
+                            {"shard", run.shard.ToString()}};
+  AddTo(metadata, IdentityOf(run.study));
+  return metadata;
 }
 
-std::filesystem::path PictureFolder(const StudyRun& run, const Cell& cell) {
-  return run.out / "pictures" /
-         fmt::format("cell_{:03}_{}_{}", cell.index, cell.part, ToString(cell.sensor));
+// Throws unless the rows of the store are those that this run would make.
+void CheckSame(const StoreMetadata& there, const StudyRun& run, const std::filesystem::path& file) {
+  std::vector<std::string> differences = Differences(IdentityFrom(there), IdentityOf(run.study));
+  if (there.at("shard") != run.shard.ToString()) {
+    differences.push_back(
+        fmt::format("shard: {} there, {} here", there.at("shard"), run.shard.ToString()));
+  }
+  if (differences.empty()) return;
+  throw InputError(file, fmt::format("holds another result, which this run cannot continue. {}. "
+                                     "Choose another --out, or replace it with --restart",
+                                     fmt::join(differences, "; ")));
 }
 
-void WriteReports(const StudyRun& run, const std::vector<TrialRecord>& records,
-                  const std::vector<CellSummary>& summaries) {
-  ReportTitle title{.study = run.study.name,
-                    .description = run.study.description,
-                    .provenance = {{"Fenestra", Version()},
-                                   {"Seed", std::to_string(run.study.seed)},
-                                   {"Libraries", LibraryVersions()},
-                                   {"Processor", Processor()},
-                                   {"Jobs", std::to_string(run.jobs)}}};
-  const auto priors = PriorEntries(run.study);
-  title.provenance.insert(title.provenance.end(), priors.begin(), priors.end());
-  WriteFileAtomically(run.out / "trials.csv", TrialsCsv(records));
-  WriteFileAtomically(run.out / "summary.csv", SummaryCsv(summaries));
-  WriteFileAtomically(run.out / "summary.md", SummaryMarkdown(title, summaries));
+std::vector<TrialKey> Without(std::span<const TrialKey> trials, std::span<const TrialKey> stored) {
+  std::vector<TrialKey> missing;
+  std::set_difference(trials.begin(), trials.end(), stored.begin(), stored.end(),
+                      std::back_inserter(missing));
+  return missing;
+}
+
+ResultStore Open(const StudyRun& run, const std::filesystem::path& file, bool exists) {
+  if (exists && !run.restart) return ResultStore::Resume(file);
+  ResultStore store = ResultStore::Create(file, MetadataOf(run), ResultStore::IfExists::kReplace);
+  RemoveResultFiles(run.out);
+  return store;
+}
+
+void RunMissing(const StudyRun& run, std::span<const Cell> cells, std::span<const TrialKey> missing,
+                ResultStore& store) {
+  const int64_t entry = store.AddRun({.shard = run.shard.ToString(),
+                                      .started_utc = UtcNow(),
+                                      .ended_utc = std::nullopt,
+                                      .jobs = run.jobs,
+                                      .host = HostName(),
+                                      .processor = Processor(),
+                                      .command = run.command});
+  TrialWriter writer(store, {.interval = run.store_interval, .on_stored = run.on_stored});
+  const auto pictured = [&run](TrialKey key) { return run.pictures && key.trial == 0; };
+  const RunOptions options{
+      .jobs = run.jobs, .keep_artifacts = pictured, .stop = run.stop, .make_bench = run.make_bench};
+  RunTrials(run.study, cells, missing, options, [&](const FinishedTrial& trial) {
+    // Before the rows: a trial that is stored is not run again.
+    if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.bench.cell()), trial);
+    writer.Add(trial.Records());
+  });
+  writer.Finish();
+  store.SetRunEnd(entry, UtcNow());
 }
 
 }  // namespace
 
-std::vector<CellSummary> RunStudy(const StudyRun& run) {
+StudyResult RunStudy(const StudyRun& run) {
   const std::vector<Cell> cells = Cells(run.study);
-  const std::vector<TrialKey> trials = AllTrials(cells);
+  const std::vector<TrialKey> trials = run.shard.Of(AllTrials(cells));
+  const std::filesystem::path file = run.out / "results.sqlite";
+  const FolderLock lock(run.out);
 
-  ResultStore store = ResultStore::Create(run.out / "results.sqlite", MetadataOf(run),
-                                          ResultStore::IfExists::kReplace);
-  std::filesystem::remove_all(run.out / "pictures");  // Of an older run.
-  WriteFileAtomically(run.out / "study.yaml", ToYaml(run.study));
-
-  const RunOptions options{.jobs = run.jobs,
-                           .keep_artifacts = [](TrialKey key) { return key.trial == 0; }};
-  RunTrials(run.study, cells, trials, options, [&](const FinishedTrial& trial) {
-    const TrialKey key = trial.key();
-    if (key.trial == 0) {
-      WritePictures(PictureFolder(run, cells[static_cast<size_t>(key.cell)]), trial);
-    }
-    store.AddTrial(trial.Records());
-    run.on_trial();
-  });
-
-  const std::vector<TrialRecord> records = store.Rows();
-  std::vector<CellSummary> summaries = Summarise(records);
-  WriteReports(run, records, summaries);
-  return summaries;
+  std::vector<TrialKey> missing = trials;
+  RunStart start{.trials = static_cast<int64_t>(trials.size()), .stored = 0, .tallies = {}};
+  const bool exists = std::filesystem::exists(file);
+  if (exists && !run.restart) {
+    const ResultStore store = ResultStore::OpenReadOnly(file);
+    CheckSame(store.Metadata(), run, file);
+    missing = Without(trials, store.FinishedTrials());
+    start.stored = static_cast<int64_t>(trials.size() - missing.size());
+    start.tallies = store.Tallies();
+  }
+  StudyResult result{.trials = start.trials,
+                     .stored_before = start.stored,
+                     .stored = start.stored,
+                     .summaries = {}};
+  if (exists && missing.empty() && HasResultFiles(run.out)) {
+    result.summaries = Summarise(ResultStore::OpenReadOnly(file));
+    return result;
+  }
+  run.on_start(start);
+  ResultStore store = Open(run, file, exists);
+  if (!missing.empty()) RunMissing(run, cells, missing, store);
+  result.stored = static_cast<int64_t>(store.FinishedTrials().size());
+  if (result.complete()) result.summaries = WriteResultFiles(store, run.out);
+  return result;
 }
 
 }  // namespace fenestra

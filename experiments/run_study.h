@@ -1,38 +1,65 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "experiments/run_trials.h"
+#include "experiments/shard.h"
+#include "experiments/store.h"
 #include "experiments/study.h"
 #include "experiments/summary.h"
 
 namespace fenestra {
 
-/// A run of a whole study into a results folder:
+/// What a run finds when it starts.
+struct RunStart {
+  int64_t trials = 0;                  ///< Of the study, or of its shard.
+  int64_t stored = 0;                  ///< Of these, stored by earlier runs.
+  std::vector<DetectorTally> tallies;  ///< Of the stored ones.
+};
+
+/// A run of a study, or of a shard of it, into a results folder (see result_files.h).
 ///
-///     results.sqlite   every row, written as trials finish (ResultStore)
-///     study.yaml       the study with nothing left to defaults
-///     trials.csv       every row
-///     summary.csv      one line per cell and detector
-///     summary.md       the report
-///     pictures/        of the first trial of each cell, see WritePictures
-///
-/// An older result in the folder is replaced; a folder with another program's results.sqlite is
-/// refused with InputError. Files that a person put there stay.
+/// A folder that holds part of the same result is continued: trials that are stored are not run
+/// again, and the rows are those of an undisturbed run. The same is a result of the same study,
+/// seed, shard, program, libraries and instruction set (RunIdentity); any other is refused with an
+/// InputError that says what differs, unless `restart` is set, which replaces a sound result and
+/// nothing else. Files that a person put into the folder stay.
 struct StudyRun {
   Study study;
   std::string study_text;  ///< As written by the user.
   std::filesystem::path out;
   int jobs = 1;
-  /// Called after each trial, from several threads.
-  std::function<void()> on_trial = [] {};
+  Shard shard = {};
+  bool restart = false;
+  bool pictures = true;
+  std::string command = "";  ///< As a person would repeat it.
+  /// See TrialWriter.
+  std::chrono::milliseconds store_interval{500};
+
+  std::function<void(const RunStart&)> on_start = [](const RunStart&) {};
+  /// Called from one thread with the rows of each trial when a kill can no longer lose them.
+  std::function<void(std::span<const TrialRecord>)> on_stored = [](auto) {};
+  /// See RunOptions.
+  std::function<bool()> stop = [] { return false; };
+  BenchMaker make_bench = MakeCellBench;
 };
 
-std::vector<CellSummary> RunStudy(const StudyRun& run);
+struct StudyResult {
+  int64_t trials = 0;  ///< Of the study, or of its shard.
+  int64_t stored_before = 0;
+  int64_t stored = 0;
+  /// Empty if the run was stopped before its end.
+  std::vector<CellSummary> summaries;
 
-/// Keys of the store's metadata.
-inline constexpr const char* kMetaStudy = "study";
-inline constexpr const char* kMetaStudyText = "study_text";
+  bool complete() const { return stored == trials; }
+};
+
+StudyResult RunStudy(const StudyRun& run);
 
 }  // namespace fenestra

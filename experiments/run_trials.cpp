@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "core/check.h"
+#include "experiments/cell_bench.h"
 
 namespace fenestra {
 namespace {
@@ -13,16 +14,17 @@ namespace {
 // Makes each cell's bench when its first trial starts and drops it after its last one.
 class Benches {
  public:
-  Benches(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials)
-      : study_(study), cells_(cells), slots_(cells.size()) {
+  Benches(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
+          const BenchMaker& make_bench)
+      : study_(study), cells_(cells), make_bench_(make_bench), slots_(cells.size()) {
     for (const TrialKey& key : trials) ++slots_[static_cast<size_t>(key.cell)].remaining;
   }
 
-  std::shared_ptr<const CellBench> Acquire(int cell) {
+  std::shared_ptr<const TrialBench> Acquire(int cell) {
     Slot& slot = slots_[static_cast<size_t>(cell)];
     const std::lock_guard lock(slot.mutex);
     if (!slot.bench) {
-      slot.bench = std::make_shared<const CellBench>(study_, cells_[static_cast<size_t>(cell)]);
+      slot.bench = make_bench_(study_, cells_[static_cast<size_t>(cell)]);
     }
     return slot.bench;
   }
@@ -36,12 +38,13 @@ class Benches {
  private:
   struct Slot {
     std::mutex mutex;
-    std::shared_ptr<const CellBench> bench;
+    std::shared_ptr<const TrialBench> bench;
     int remaining = 0;
   };
 
   const Study& study_;
   std::span<const Cell> cells_;
+  const BenchMaker& make_bench_;
   std::vector<Slot> slots_;
 };
 
@@ -55,6 +58,10 @@ std::vector<TrialKey> AllTrials(std::span<const Cell> cells) {
   return trials;
 }
 
+std::shared_ptr<const TrialBench> MakeCellBench(const Study& study, const Cell& cell) {
+  return std::make_shared<const CellBench>(study, cell);
+}
+
 std::vector<TrialRecord> FinishedTrial::Records() const {
   std::vector<TrialRecord> records;
   for (const Attempt& attempt : attempts) records.push_back(attempt.record);
@@ -64,7 +71,7 @@ std::vector<TrialRecord> FinishedTrial::Records() const {
 void RunTrials(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
                const RunOptions& options, const std::function<void(const FinishedTrial&)>& finish) {
   FENESTRA_CHECK(options.jobs >= 1, "a run needs at least one job");
-  Benches benches(study, cells, trials);
+  Benches benches(study, cells, trials, options.make_bench);
   std::atomic<size_t> next = 0;
   std::mutex error_mutex;
   std::exception_ptr first_error;
@@ -81,7 +88,7 @@ void RunTrials(const Study& study, std::span<const Cell> cells, std::span<const 
   };
   const auto work = [&] {
     try {
-      for (size_t i = next++; i < trials.size(); i = next++) run_one(trials[i]);
+      for (size_t i = next++; i < trials.size() && !options.stop(); i = next++) run_one(trials[i]);
     } catch (...) {
       const std::lock_guard lock(error_mutex);
       if (!first_error) first_error = std::current_exception();

@@ -1,27 +1,21 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "experiments/cell_bench.h"
+#include "experiments/trial_bench.h"
+#include "experiments/trial_key.h"
 
 namespace fenestra {
-
-/// One trial of a study.
-struct TrialKey {
-  int cell = 0;   ///< Index into Cells(study).
-  int trial = 0;  ///< Index in the cell, from 0.
-
-  auto operator<=>(const TrialKey&) const = default;
-};
 
 /// All trials, cell by cell.
 std::vector<TrialKey> AllTrials(std::span<const Cell> cells);
 
 /// A trial that every detector of its cell has tried.
 struct FinishedTrial {
-  const CellBench& bench;
+  const TrialBench& bench;
   const SimulatedTrial& simulated;
   const std::vector<Attempt>& attempts;
 
@@ -29,10 +23,19 @@ struct FinishedTrial {
   std::vector<TrialRecord> Records() const;
 };
 
+/// Makes the bench of a cell.
+using BenchMaker = std::function<std::shared_ptr<const TrialBench>(const Study&, const Cell&)>;
+
+/// A CellBench.
+std::shared_ptr<const TrialBench> MakeCellBench(const Study& study, const Cell& cell);
+
 struct RunOptions {
   int jobs = 1;  ///< Trials that run at the same time, at least 1.
   /// Whether detectors shall keep their pictures and clouds in this trial.
   std::function<bool(TrialKey)> keep_artifacts = [](TrialKey) { return false; };
+  /// Asked before each trial; true ends the run when the trials that run have finished.
+  std::function<bool()> stop = [] { return false; };
+  BenchMaker make_bench = MakeCellBench;
 };
 
 /// Runs the trials, in about the order given, each on one thread. `finish` is called once for each,

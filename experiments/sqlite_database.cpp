@@ -110,7 +110,7 @@ SqliteDatabase::SqliteDatabase(const std::filesystem::path& file, Mode mode) : f
       sqlite3_open_v2(path.c_str(), &connection, OpenFlags(mode) | SQLITE_OPEN_NOMUTEX, nullptr);
   connection_.reset(connection);
   if (code != SQLITE_OK) ThrowError(file_, connection, code);
-  sqlite3_busy_timeout(connection, 10'000);  // [ms]; readers may hold the file for a moment.
+  sqlite3_busy_timeout(connection, 60'000);  // [ms]; readers may hold the file while they read.
 }
 
 void SqliteDatabase::Execute(const std::string& sql) {

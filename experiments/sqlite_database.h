@@ -61,6 +61,8 @@ class SqliteDatabase {
   /// One or several statements without parameters and results.
   void Execute(const std::string& sql);
   SqliteStatement Prepare(const std::string& sql);
+  /// The number of the row that was inserted last, in a table that has one.
+  int64_t LastRowId() const { return sqlite3_last_insert_rowid(connection_.get()); }
 
  private:
   struct Closer {

@@ -62,6 +62,7 @@ void CheckStore(const fs::path& file) {
     throw InputError(file, "is damaged: " + report);
   }
   PrepareSelect(database);  // Throws where a column is missing.
+  PrepareSelectRuns(database);
 }
 
 void WriteEmptyStore(const fs::path& file, const StoreMetadata& metadata) {
@@ -86,8 +87,18 @@ fs::path TemporaryBeside(const fs::path& file) {
 struct ResultStore::Connection {
   Connection(const fs::path& path, SqliteDatabase::Mode mode) : file(path), database(path, mode) {
     if (mode == SqliteDatabase::Mode::kReadOnly) return;
-    database.Execute("PRAGMA synchronous = NORMAL");
+    database.Execute("PRAGMA synchronous = EXTRA");
     insert = PrepareInsert(database);
+  }
+
+  TrialRecord Read(SqliteStatement& select) const {
+    try {
+      return ReadRow(select);
+    } catch (const InputError&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      throw InputError(file, fmt::format("a row does not make sense: {}", error.what()));
+    }
   }
 
   fs::path file;
@@ -136,42 +147,98 @@ ResultStore ResultStore::OpenReadOnly(const fs::path& file) {
   return ResultStore(std::make_unique<Connection>(file, SqliteDatabase::Mode::kReadOnly));
 }
 
-void ResultStore::AddTrial(std::span<const TrialRecord> rows) {
+void ResultStore::AddTrials(std::span<const std::vector<TrialRecord>> trials) {
   const std::lock_guard lock(connection_->mutex);
   FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
   SqliteTransaction transaction(connection_->database);
-  for (const TrialRecord& row : rows) {
-    FENESTRA_CHECK(row.cell == rows.front().cell && row.trial == rows.front().trial,
-                   "rows of two trials");
-    InsertRow(*connection_->insert, row);
+  for (const std::vector<TrialRecord>& rows : trials) {
+    for (const TrialRecord& row : rows) {
+      FENESTRA_CHECK(row.cell == rows.front().cell && row.trial == rows.front().trial,
+                     "rows of two trials");
+      InsertRow(*connection_->insert, row);
+    }
   }
   transaction.Commit();
 }
 
-std::set<std::pair<int, int>> ResultStore::FinishedTrials() const {
+void ResultStore::AddTrial(std::span<const TrialRecord> rows) {
+  const std::vector<TrialRecord> trial(rows.begin(), rows.end());
+  AddTrials({&trial, 1});
+}
+
+std::vector<TrialKey> ResultStore::FinishedTrials() const {
   const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select = connection_->database.Prepare("SELECT DISTINCT cell, trial FROM trials");
-  std::set<std::pair<int, int>> trials;
+  SqliteStatement select =
+      connection_->database.Prepare("SELECT DISTINCT cell, trial FROM trials ORDER BY cell, trial");
+  std::vector<TrialKey> trials;
   while (select.Step()) {
     const auto cell = static_cast<int>(select.ReadInteger());
     const auto trial = static_cast<int>(select.ReadInteger());
-    trials.emplace(cell, trial);
+    trials.push_back({cell, trial});
   }
   return trials;
 }
 
-std::vector<TrialRecord> ResultStore::Rows() const {
+void ResultStore::ForEachRow(const std::function<void(const TrialRecord&)>& visit) const {
   const std::lock_guard lock(connection_->mutex);
   SqliteStatement select = PrepareSelect(connection_->database);
+  while (select.Step()) visit(connection_->Read(select));
+}
+
+std::vector<TrialRecord> ResultStore::Rows() const {
   std::vector<TrialRecord> rows;
-  try {
-    while (select.Step()) rows.push_back(ReadRow(select));
-  } catch (const InputError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw InputError(connection_->file, fmt::format("row {}: {}", rows.size() + 1, error.what()));
-  }
+  ForEachRow([&rows](const TrialRecord& row) { rows.push_back(row); });
   return rows;
+}
+
+std::vector<TrialRecord> ResultStore::RowsOf(TrialKey key) const {
+  const std::lock_guard lock(connection_->mutex);
+  SqliteStatement select = PrepareSelect(connection_->database, "WHERE cell = ? AND trial = ?");
+  select.Bind(int64_t{key.cell}).Bind(int64_t{key.trial});
+  std::vector<TrialRecord> rows;
+  while (select.Step()) rows.push_back(connection_->Read(select));
+  return rows;
+}
+
+std::vector<DetectorTally> ResultStore::Tallies() const {
+  const std::lock_guard lock(connection_->mutex);
+  SqliteStatement select = connection_->database.Prepare(
+      "SELECT detector, sum(truth_x_m IS NOT NULL AND outcome <> 'out_of_view'), "
+      "sum(outcome = 'hit') FROM trials GROUP BY detector ORDER BY detector");
+  std::vector<DetectorTally> tallies;
+  while (select.Step()) {
+    DetectorTally tally;
+    tally.detector = select.ReadText();
+    tally.in_view = select.ReadInteger();
+    tally.hits = select.ReadInteger();
+    tallies.push_back(std::move(tally));
+  }
+  return tallies;
+}
+
+int64_t ResultStore::AddRun(const RunEntry& run) {
+  const std::lock_guard lock(connection_->mutex);
+  FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
+  SqliteStatement insert = PrepareInsertRun(connection_->database);
+  InsertRun(insert, run);
+  return connection_->database.LastRowId();
+}
+
+void ResultStore::SetRunEnd(int64_t run, const std::string& ended_utc) {
+  const std::lock_guard lock(connection_->mutex);
+  FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
+  connection_->database.Prepare("UPDATE runs SET ended_utc = ? WHERE run = ?")
+      .Bind(ended_utc)
+      .Bind(run)
+      .Run();
+}
+
+std::vector<RunEntry> ResultStore::Runs() const {
+  const std::lock_guard lock(connection_->mutex);
+  SqliteStatement select = PrepareSelectRuns(connection_->database);
+  std::vector<RunEntry> runs;
+  while (select.Step()) runs.push_back(ReadRun(select));
+  return runs;
 }
 
 StoreMetadata ResultStore::Metadata() const {
@@ -183,15 +250,6 @@ StoreMetadata ResultStore::Metadata() const {
     metadata[std::move(key)] = select.ReadText();
   }
   return metadata;
-}
-
-void ResultStore::SetMetadata(const std::string& key, const std::string& value) {
-  const std::lock_guard lock(connection_->mutex);
-  FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
-  connection_->database.Prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)")
-      .Bind(key)
-      .Bind(value)
-      .Run();
 }
 
 }  // namespace fenestra

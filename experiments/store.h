@@ -1,35 +1,55 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "experiments/trial_key.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
 
-/// What a store says of itself: the study as written and as resolved, version, seed, libraries,
-/// processor. Free keys; "schema_version" is written by the store.
+/// What a store says of itself: the study as written and as resolved, version, seed, libraries.
+/// Free keys; "schema_version" is written by the store.
 using StoreMetadata = std::map<std::string, std::string>;
 
-/// The raw rows of one run, in one SQLite file. Tables (see store_schema.h for the columns):
+/// One call of the program that added trials to a store.
+struct RunEntry {
+  std::string shard = "1/1";
+  std::string started_utc = "";                         ///< "2026-01-31T12:00:00Z"
+  std::optional<std::string> ended_utc = std::nullopt;  ///< Absent: still running, or killed.
+  int jobs = 1;
+  std::string host = "";
+  std::string processor = "";
+  std::string command = "";
+};
+
+/// How often a detector has found the target so far.
+struct DetectorTally {
+  std::string detector;
+  int64_t in_view = 0;  ///< Rows whose target is in view (see CellSummary).
+  int64_t hits = 0;
+};
+
+/// The raw rows of one study, in one SQLite file. Tables (see store_schema.h for the columns):
 ///
 ///     meta(key, value)     StoreMetadata
+///     runs(...)            one row per RunEntry
 ///     trials(...)          one row per TrialRecord, PRIMARY KEY (cell, trial, detector)
 ///
 /// Everything else that a report shows is derived from these rows alone.
 ///
-/// What is in the file at any time: whole trials only. All rows of a trial are written in one
-/// transaction, with SQLite's rollback journal: a run that is killed keeps every finished trial,
-/// and the trial that was being written is rolled back when the file is opened again. (Not a
-/// write-ahead log: that keeps rows in a second file and does not work on network file systems.)
-/// synchronous = NORMAL: a power failure cannot damage finished trials, at the price of a few
-/// milliseconds a trial on a disk.
+/// What is in the file at any time: whole trials only. Trials are written in transactions with
+/// SQLite's rollback journal: a run that is killed keeps every trial whose AddTrials has returned,
+/// and what was being written is rolled back when the file is opened again. (Not a write-ahead log:
+/// that keeps rows in a second file and does not work on network file systems.) synchronous =
+/// EXTRA: the same holds after a power failure. A transaction costs some milliseconds on a disk,
+/// which is why TrialWriter gathers trials.
 ///
 /// One process writes; any number may read, during the run, too. All members are thread-safe.
 /// Errors: InputError for a file that is missing, damaged, of another program or version, or that
@@ -50,19 +70,30 @@ class ResultStore {
   ResultStore& operator=(ResultStore&&) noexcept;
   ~ResultStore();
 
-  /// Adds one trial: its rows under all its detectors, which must agree in cell and trial. Either
-  /// all of them are stored or, with an InputError, none (a row is already there, the disk is
-  /// full).
+  /// Adds trials: of each its rows under all its detectors, which must agree in cell and trial.
+  /// Either all of them are stored or, with an InputError, none (a row is already there, the disk
+  /// is full).
+  void AddTrials(std::span<const std::vector<TrialRecord>> trials);
   void AddTrial(std::span<const TrialRecord> rows);
 
-  /// (cell, trial) of all trials that are stored.
-  std::set<std::pair<int, int>> FinishedTrials() const;
-  /// All rows, ordered by (cell, trial, detector), as they were added to the last bit.
+  /// All trials that are stored, in ascending order.
+  std::vector<TrialKey> FinishedTrials() const;
+  /// Shows every row to `visit`, ordered by (cell, trial, detector), as it was added to the last
+  /// bit. `visit` must not use this store.
+  void ForEachRow(const std::function<void(const TrialRecord&)>& visit) const;
   std::vector<TrialRecord> Rows() const;
+  /// The rows of one trial, by detector; none if it is not stored.
+  std::vector<TrialRecord> RowsOf(TrialKey key) const;
+
+  /// One for each detector, by name.
+  std::vector<DetectorTally> Tallies() const;
+
+  /// Adds a row to the table `runs` and returns its number.
+  int64_t AddRun(const RunEntry& run);
+  void SetRunEnd(int64_t run, const std::string& ended_utc);
+  std::vector<RunEntry> Runs() const;
 
   StoreMetadata Metadata() const;
-  /// Adds or replaces one entry, such as the time at which the run ended.
-  void SetMetadata(const std::string& key, const std::string& value);
 
  private:
   struct Connection;

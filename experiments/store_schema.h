@@ -7,7 +7,7 @@ namespace fenestra {
 /// Bytes 68–71 of the file, big-endian: "Fene". Tells Fenestra's files from other SQLite files.
 inline constexpr uint32_t kStoreApplicationId = 0x46656e65;
 /// Bytes 60–63 of the file. Counts up with every change to the tables.
-inline constexpr uint32_t kStoreSchemaVersion = 2;
+inline constexpr uint32_t kStoreSchemaVersion = 3;
 
 /// Numbers of estimate and truth are declared ANY: a REAL column would keep a whole number as an
 /// integer and so lose the sign of -0.0. The columns centroid_error_* repeat estimate minus truth
@@ -17,6 +17,17 @@ CREATE TABLE meta (
   key   TEXT PRIMARY KEY,
   value TEXT NOT NULL
 ) STRICT, WITHOUT ROWID;
+
+CREATE TABLE runs (                  -- one row per call of the program that added trials
+  run         INTEGER PRIMARY KEY,   -- from 1
+  shard       TEXT NOT NULL,         -- "2/8"; "1/1" is the whole study
+  started_utc TEXT NOT NULL,         -- 2026-01-31T12:00:00Z
+  ended_utc   TEXT,                  -- NULL: still running, or killed
+  jobs        INTEGER NOT NULL,
+  host        TEXT NOT NULL,
+  processor   TEXT NOT NULL,
+  command     TEXT NOT NULL
+) STRICT;
 
 CREATE TABLE trials (
   cell                INTEGER NOT NULL,

@@ -103,7 +103,8 @@ struct CellSummary {
 };
 
 /// One summary per (cell, detector), ordered by cell, then detector. Does not depend on the order
-/// of the rows, to the last bit. A (cell, trial, detector) that occurs twice fails a check.
+/// of the rows, to the last bit. A (cell, trial, detector) that occurs twice fails a check. See
+/// Summariser for rows that are not all in memory.
 std::vector<CellSummary> Summarise(std::span<const TrialRecord> records);
 
 }  // namespace fenestra

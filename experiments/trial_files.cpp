@@ -98,7 +98,7 @@ void WriteObservation(const std::filesystem::path& folder, const Observation& ob
   }
 }
 
-void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench,
+void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
                      const SimulatedTrial& simulated) {
   WriteObservation(folder, simulated.observation, simulated.calibration);
   if (const auto* rgbd = std::get_if<RgbdObservation>(&simulated.observation)) {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "experiments/cell_bench.h"
 #include "experiments/run_trials.h"
+#include "experiments/trial_bench.h"
 
 namespace fenestra {
 
@@ -33,7 +33,7 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 ///     truth.exr     per pixel: radiance, depth, normal, ids, light, visibility, disparity
 ///     cloud.pcd     the true surface in the scored camera's frame
 ///     trial.yaml    every factor's value in this trial
-void WriteTrialFiles(const std::filesystem::path& folder, const CellBench& bench,
+void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
                      const SimulatedTrial& simulated);
 
 /// Writes an observation and its calibration alone.

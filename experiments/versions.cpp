@@ -5,11 +5,13 @@
 #include <link.h>
 #include <pcl/pcl_config.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <Eigen/Core>
 #include <fstream>
 #include <opencv2/core/utility.hpp>
 
+#include "experiments/shell_quoting.h"
 #include "renderers/embree_version.h"
 
 namespace fenestra {
@@ -69,10 +71,28 @@ std::string Processor() {
       break;
     }
   }
-  const char* widest = __builtin_cpu_supports("avx512f") ? "AVX-512"
-                       : __builtin_cpu_supports("avx2")  ? "AVX2"
-                                                         : "SSE";
-  return name + ", " + widest;
+  return name + ", " + InstructionSet();
+}
+
+std::string InstructionSet() {
+  return __builtin_cpu_supports("avx512f") ? "AVX-512"
+         : __builtin_cpu_supports("avx2")  ? "AVX2"
+                                           : "SSE";
+}
+
+std::string HostName() {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  return name;
+}
+
+std::string CommandLine() {
+  std::ifstream words("/proc/self/cmdline", std::ios::binary);
+  std::string command;
+  for (std::string word; std::getline(words, word, '\0');) {
+    command += (command.empty() ? "" : " ") + ShellQuoted(word);
+  }
+  return command;
 }
 
 }  // namespace fenestra

@@ -21,6 +21,7 @@ void AddRunCommand(CLI::App& program, int& exit_code);
 void AddRenderCommand(CLI::App& program, int& exit_code);
 void AddExportCommand(CLI::App& program, int& exit_code);
 void AddReplayCommand(CLI::App& program, int& exit_code);
+void AddReportCommand(CLI::App& program, int& exit_code);
 void AddDetectCommand(CLI::App& program, int& exit_code);
 void AddBoundCommand(CLI::App& program, int& exit_code);
 void AddCalibrateCommand(CLI::App& program, int& exit_code);

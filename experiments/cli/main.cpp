@@ -87,6 +87,7 @@ int Main(int argc, char** argv) {
   AddRenderCommand(program, exit_code);
   AddExportCommand(program, exit_code);
   AddReplayCommand(program, exit_code);
+  AddReportCommand(program, exit_code);
   AddDetectCommand(program, exit_code);
   AddBoundCommand(program, exit_code);
   AddCalibrateCommand(program, exit_code);

@@ -1,48 +1,110 @@
 #include "experiments/cli/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <string>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
 
 namespace fenestra::cli {
+namespace {
 
-using std::chrono::duration;
-using std::chrono::steady_clock;
+constexpr double kRedraw_s = 0.2;
+constexpr int kBarWidth = 24;
 
-ProgressBar::ProgressBar(int total)
-    : total_(total),
-      visible_(isatty(STDERR_FILENO) == 1),
-      started_(steady_clock::now()),
-      drawn_(started_) {
-  if (visible_) Draw();
+// "0:07", "12:34", "3:00:12".
+std::string Duration(double seconds) {
+  const auto s = static_cast<int64_t>(std::llround(seconds));
+  if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
+  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
-ProgressBar::~ProgressBar() {
-  if (visible_) fmt::print(stderr, "\r\x1b[K");
+std::string Percent(const DetectorTally& tally) {
+  if (tally.in_view == 0) return "-";
+  return fmt::format("{:.0f}%",
+                     100.0 * static_cast<double>(tally.hits) / static_cast<double>(tally.in_view));
 }
 
-void ProgressBar::Advance() {
-  const std::lock_guard lock(mutex_);
-  ++done_;
-  const SteadyTime now = steady_clock::now();
-  if (!visible_ || now - drawn_ < std::chrono::milliseconds(100)) return;
-  drawn_ = now;
-  Draw();
+}  // namespace
+
+Progress::Options Progress::ForStandardError() {
+  winsize size{};
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  if (terminal) ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
+  return {.terminal = terminal,
+          .columns = size.ws_col > 0 ? size.ws_col : 80,
+          .seconds =
+              [] {
+                const auto now = std::chrono::steady_clock::now().time_since_epoch();
+                return std::chrono::duration<double>(now).count();
+              },
+          .write =
+              [](const std::string& text) {
+                fmt::print(stderr, "{}", text);
+                std::fflush(stderr);
+              }};
 }
 
-void ProgressBar::Draw() const {
-  constexpr int kWidth = 40;
-  const double share = total_ > 0 ? static_cast<double>(done_) / total_ : 1.0;
-  const int filled = static_cast<int>(share * kWidth);
-  const double elapsed_s = duration<double>(steady_clock::now() - started_).count();
-  std::string rest;
-  if (done_ > 0) {
-    const int left_s = static_cast<int>(elapsed_s / done_ * (total_ - done_) + 0.5);
-    rest = fmt::format("  {:.1f}/s  {}:{:02} left", done_ / elapsed_s, left_s / 60, left_s % 60);
+Progress::~Progress() {
+  if (drawn_) options_.write("\r\x1b[K");
+}
+
+void Progress::Start(const RunStart& start) {
+  total_ = start.trials;
+  done_ = done_before_ = start.stored;
+  for (const DetectorTally& tally : start.tallies) tallies_[tally.detector] = tally;
+  started_s_ = shown_s_ = options_.seconds();
+  if (done_before_ > 0) {
+    options_.write(fmt::format("{} of {} trials are stored already\n", done_before_, total_));
   }
-  fmt::print(stderr, "\r\x1b[K[{}{}] {}/{} trials{}", std::string(static_cast<size_t>(filled), '#'),
-             std::string(static_cast<size_t>(kWidth - filled), '.'), done_, total_, rest);
+  if (options_.terminal) Show();
+}
+
+void Progress::Add(std::span<const TrialRecord> rows) {
+  ++done_;
+  for (const TrialRecord& row : rows) {
+    DetectorTally& tally = tallies_[row.detector];
+    tally.detector = row.detector;
+    if (row.score.outcome == Outcome::kHit) ++tally.hits;
+    if (row.score.truth_p_CO && row.score.outcome != Outcome::kOutOfView) ++tally.in_view;
+  }
+  const double interval_s = options_.terminal ? kRedraw_s : options_.line_interval_s;
+  if (options_.seconds() - shown_s_ >= interval_s) Show();
+}
+
+void Progress::Show() {
+  shown_s_ = options_.seconds();
+  std::string text = fmt::format("{}/{} trials{}", done_, total_, Rate());
+  bool first = true;
+  for (const auto& [detector, tally] : tallies_) {
+    text += fmt::format("{}{} {}", first ? "  hits: " : ", ", detector, Percent(tally));
+    first = false;
+  }
+  if (!options_.terminal) {
+    options_.write(text + "\n");
+    return;
+  }
+  text = Bar() + text;
+  // One that is too long for its line could not be drawn over.
+  text.resize(std::min(text.size(), static_cast<size_t>(std::max(options_.columns - 1, 0))));
+  options_.write("\r\x1b[K" + text);
+  drawn_ = true;
+}
+
+std::string Progress::Bar() const {
+  const double share = total_ > 0 ? static_cast<double>(done_) / static_cast<double>(total_) : 1.0;
+  const auto filled = static_cast<size_t>(share * kBarWidth);
+  return "[" + std::string(filled, '#') + std::string(kBarWidth - filled, '.') + "] ";
+}
+
+std::string Progress::Rate() const {
+  const double elapsed_s = shown_s_ - started_s_;
+  if (done_ == done_before_ || elapsed_s <= 0.0) return "";
+  const double rate = static_cast<double>(done_ - done_before_) / elapsed_s;
+  return fmt::format("  {:.1f}/s  {} left", rate,
+                     Duration(static_cast<double>(total_ - done_) / rate));
 }
 
 }  // namespace fenestra::cli

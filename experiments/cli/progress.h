@@ -1,31 +1,54 @@
 #pragma once
 
-#include <chrono>
-#include <mutex>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+
+#include "experiments/run_study.h"
 
 namespace fenestra::cli {
 
-/// A progress bar on standard error: only on a terminal, redrawn at most ten times a second, gone
-/// when it ends. Thread-safe.
-class ProgressBar {
+/// How a run gets on: trials, rate, remaining time and each detector's hit rate so far. On a
+/// terminal a line that is drawn anew, gone when the run ends; elsewhere a line now and then. Not
+/// thread-safe.
+class Progress {
  public:
-  explicit ProgressBar(int total);
-  ~ProgressBar();
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
+  struct Options {
+    bool terminal = false;
+    int columns = 80;  ///< Of the terminal.
+    /// Between plain lines; quicker runs print none.
+    double line_interval_s = 30.0;
+    std::function<double()> seconds;  ///< A clock that never goes back.
+    std::function<void(const std::string&)> write;
+  };
 
-  void Advance();
+  /// To standard error, as it is.
+  static Options ForStandardError();
+
+  explicit Progress(Options options) : options_(std::move(options)) {}
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void Start(const RunStart& start);
+  /// The rows of one trial.
+  void Add(std::span<const TrialRecord> rows);
 
  private:
-  void Draw() const;
+  void Show();
+  std::string Bar() const;
+  std::string Rate() const;
 
-  using SteadyTime = std::chrono::steady_clock::time_point;
-  std::mutex mutex_;
-  int total_;
-  int done_ = 0;
-  bool visible_;
-  SteadyTime started_;
-  SteadyTime drawn_;
+  Options options_;
+  int64_t total_ = 0;
+  int64_t done_ = 0;
+  int64_t done_before_ = 0;
+  std::map<std::string, DetectorTally> tallies_;
+  double started_s_ = 0.0;
+  double shown_s_ = 0.0;
+  bool drawn_ = false;
 };
 
 }  // namespace fenestra::cli

@@ -79,7 +79,7 @@ TEST(RunTrialsTest, AnExceptionEndsTheRunAndComesOut) {
 TEST(RunStudyTest, LeavesEveryFileAndEveryTrialReplaysToTheLastBit) {
   const TemporaryFolder folder;
   const StudyRun run{.study = SmallStudy(), .study_text = kStudy, .out = folder / "out", .jobs = 2};
-  const std::vector<CellSummary> summaries = RunStudy(run);
+  const std::vector<CellSummary> summaries = RunStudy(run).summaries;
   EXPECT_EQ(summaries.size(), 6u);
   for (const char* name : {"results.sqlite", "trials.csv", "summary.csv", "summary.md",
                            "study.yaml", "pictures/cell_000_main_stereo/paper-stereo/left.png",
@@ -102,7 +102,7 @@ TEST(RunStudyTest, ASceneWithoutAWindowCountsFalseAlarms) {
                      .study_text = "",
                      .out = folder / "out",
                      .jobs = 2};
-  for (const CellSummary& summary : RunStudy(run)) {
+  for (const CellSummary& summary : RunStudy(run).summaries) {
     EXPECT_EQ(summary.without_target, 1);
     EXPECT_EQ(summary.in_view, 0);
     EXPECT_EQ(summary.counts[Outcome::kClear] + summary.counts[Outcome::kFalseAlarm], 1);

@@ -152,7 +152,7 @@ TEST_F(Store, RowsComeBackToTheLastBit) {
   ASSERT_EQ(read.size(), rows.size());
   for (size_t i = 0; i < rows.size(); ++i) ExpectSameBits(read[i], rows[i]);
   EXPECT_EQ(store.Metadata().at("study"), "a: 'b'\n");
-  EXPECT_EQ(store.Metadata().at("schema_version"), "2");
+  EXPECT_EQ(store.Metadata().at("schema_version"), "3");
 }
 
 TEST_F(Store, RowsAreOrderedByCellTrialAndDetector) {
@@ -217,6 +217,39 @@ TEST_F(Store, ATrialIsStoredAsAWholeOrNotAtAll) {
   ExpectSameBits(store.Rows()[2], next[1]);
 }
 
+TEST_F(Store, OneTrialIsFoundAloneAndDetectorsAreCounted) {
+  ResultStore store = ResultStore::Create(file_, {});
+  const std::vector<std::vector<TrialRecord>> trials = {
+      {RandomHit(0, 0, "a"), Row(0, 0, Outcome::kMissed, "b")},
+      {RandomHit(1, 0, "a"), Row(1, 0, Outcome::kOutOfView, "b")},
+      {RandomHit(1, 1, "a"), Row(1, 1, Outcome::kClear, "b")}};
+  store.AddTrials(trials);
+  ASSERT_EQ(store.RowsOf({1, 1}).size(), 2u);
+  ExpectSameBits(store.RowsOf({1, 1})[0], trials[2][0]);
+  EXPECT_TRUE(store.RowsOf({0, 1}).empty());
+  const std::vector<DetectorTally> tallies = store.Tallies();
+  ASSERT_EQ(tallies.size(), 2u);
+  EXPECT_EQ(tallies[0].hits, 3);
+  EXPECT_EQ(tallies[0].in_view, 3);
+  EXPECT_EQ(tallies[1].hits, 0);
+  EXPECT_EQ(tallies[1].in_view, 1);
+}
+
+TEST_F(Store, RunsAreRemembered) {
+  ResultStore store = ResultStore::Create(file_, {});
+  const int64_t killed = store.AddRun({.started_utc = "a", .host = "n1", .command = "run 'x y'"});
+  const int64_t ended = store.AddRun({.shard = "2/8", .started_utc = "b", .jobs = 3});
+  store.SetRunEnd(ended, "c");
+  EXPECT_NE(killed, ended);
+  const std::vector<RunEntry> runs = store.Runs();
+  ASSERT_EQ(runs.size(), 2u);
+  EXPECT_EQ(runs[0].ended_utc, std::nullopt);
+  EXPECT_EQ(runs[0].command, "run 'x y'");
+  EXPECT_EQ(runs[1].ended_utc, "c");
+  EXPECT_EQ(runs[1].shard, "2/8");
+  EXPECT_EQ(runs[1].jobs, 3);
+}
+
 TEST_F(Store, AKilledRunKeepsItsTrialsAndGoesOn) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
@@ -233,9 +266,7 @@ TEST_F(Store, AKilledRunKeepsItsTrialsAndGoesOn) {
   EXPECT_EQ(store.FinishedTrials().size(), 5u);
   const TrialRecord row = RandomHit(0, 5);
   store.AddTrial({&row, 1});
-  store.SetMetadata("finished", "yes");
   EXPECT_EQ(ResultStore::OpenReadOnly(file_).Rows().size(), 6u);
-  EXPECT_EQ(store.Metadata().at("finished"), "yes");
   EXPECT_EQ(store.Metadata().at("seed"), "1");
 }
 
@@ -279,7 +310,7 @@ TEST_F(Store, AReaderCannotWrite) {
   ResultStore store = ResultStore::OpenReadOnly(file_);
   const TrialRecord row = RandomHit(0, 0);
   EXPECT_THROW(store.AddTrial({&row, 1}), std::logic_error);
-  EXPECT_THROW(store.SetMetadata("key", "value"), std::logic_error);
+  EXPECT_THROW(store.AddRun({}), std::logic_error);
   EXPECT_EQ(ReadBytes(file_), before);
 }
 

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "experiments/cli/commands.h"
+#include "experiments/report.h"
+#include "experiments/result_files.h"
+
+namespace fenestra::cli {
+namespace {
+
+struct ReportArguments {
+  std::filesystem::path results;
+  std::filesystem::path out;
+  bool pictures = false;
+  int jobs = 1;
+};
+
+void Report(const ReportArguments& arguments) {
+  const std::filesystem::path file = StoreFile(arguments.results);
+  const ResultStore store = ResultStore::OpenReadOnly(file);
+  const std::filesystem::path out = arguments.out.empty() ? file.parent_path() : arguments.out;
+  const std::vector<CellSummary> summaries = WriteResultFiles(store, out);
+  if (arguments.pictures) WriteResultPictures(store, file, out, arguments.jobs);
+  fmt::print("{}\nTables and rows{} are in {}\n", SummaryForTerminal(summaries),
+             arguments.pictures ? " and pictures" : "", out.empty() ? "." : out.string());
+}
+
+}  // namespace
+
+void AddReportCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("report", "Makes tables and files from a stored result again");
+  command->footer(
+      "Example:\n"
+      "  fenestra report results/paper --out /tmp/paper --pictures\n"
+      "Works on results.sqlite alone, also while a run is writing it.");
+  const auto arguments = std::make_shared<ReportArguments>();
+  command->add_option("RESULTS", arguments->results, "Results folder or its results.sqlite")
+      ->required();
+  command->add_option("--out", arguments->out, "Folder for the files; default: where the rows are");
+  command->add_flag("--pictures", arguments->pictures,
+                    "Runs the first trial of each cell again for its pictures");
+  command->add_option("--jobs", arguments->jobs, "Trials at the same time, for the pictures")
+      ->check(CLI::Range(1, 1024));
+  command->callback([arguments, &exit_code] {
+    Report(*arguments);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli

@@ -1,0 +1,100 @@
+#include "experiments/result_files.h"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "core/atomic_file.h"
+#include "core/input_error.h"
+#include "experiments/report.h"
+#include "experiments/run_trials.h"
+#include "experiments/study_reader.h"
+#include "experiments/summariser.h"
+#include "experiments/trial_files.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kTextFiles[] = {"study.yaml", "trials.csv", "summary.csv", "summary.md"};
+
+std::string Get(const StoreMetadata& metadata, const std::string& key) {
+  const auto found = metadata.find(key);
+  return found == metadata.end() ? "" : found->second;
+}
+
+ReportTitle TitleOf(const ResultStore& store) {
+  const StoreMetadata metadata = store.Metadata();
+  ReportTitle title{.study = Get(metadata, "name"),
+                    .description = Get(metadata, "description"),
+                    .provenance = {{"Fenestra", Get(metadata, "version")},
+                                   {"Seed", Get(metadata, "seed")},
+                                   {"Libraries", Get(metadata, "libraries")}}};
+  if (const std::vector<RunEntry> runs = store.Runs(); !runs.empty()) {
+    title.provenance.emplace_back("Processor", runs.back().processor);
+    title.provenance.emplace_back("Jobs", std::to_string(runs.back().jobs));
+  }
+  return title;
+}
+
+}  // namespace
+
+fs::path StoreFile(const fs::path& results) {
+  return fs::is_directory(results) ? results / "results.sqlite" : results;
+}
+
+Study StudyOf(const ResultStore& store, const fs::path& file) {
+  return ReadStudy(YamlReader::FromText(Get(store.Metadata(), "study"), file.string() + " (study)"),
+                   Detectors());
+}
+
+std::vector<CellSummary> Summarise(const ResultStore& store) {
+  Summariser summariser;
+  store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
+  return summariser.Finish();
+}
+
+std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::path& folder) {
+  std::vector<CellSummary> summaries = Summarise(store);
+  WriteFileAtomically(folder / "study.yaml", Get(store.Metadata(), "study"));
+  WriteFileAtomically(folder / "trials.csv", [&store](std::ostream& out) {
+    WriteTrialsCsv([&store](const auto& visit) { store.ForEachRow(visit); }, out);
+  });
+  WriteFileAtomically(folder / "summary.csv", SummaryCsv(summaries));
+  WriteFileAtomically(folder / "summary.md", SummaryMarkdown(TitleOf(store), summaries));
+  return summaries;
+}
+
+bool HasResultFiles(const fs::path& folder) {
+  for (const char* name : kTextFiles) {
+    if (!fs::exists(folder / name)) return false;
+  }
+  return true;
+}
+
+void RemoveResultFiles(const fs::path& folder) {
+  for (const char* name : kTextFiles) fs::remove(folder / name);
+  fs::remove_all(folder / "pictures");
+}
+
+fs::path PictureFolder(const fs::path& folder, const Cell& cell) {
+  return folder / "pictures" /
+         fmt::format("cell_{:03}_{}_{}", cell.index, cell.part, ToString(cell.sensor));
+}
+
+void WriteResultPictures(const ResultStore& store, const fs::path& file, const fs::path& folder,
+                         int jobs) {
+  const Study study = StudyOf(store, file);
+  const std::vector<Cell> cells = Cells(study);
+  std::vector<TrialKey> first;
+  for (const TrialKey key : store.FinishedTrials()) {
+    if (key.trial == 0) first.push_back(key);
+  }
+  const RunOptions options{.jobs = jobs, .keep_artifacts = [](TrialKey) { return true; }};
+  RunTrials(study, cells, first, options, [&](const FinishedTrial& trial) {
+    WritePictures(PictureFolder(folder, trial.bench.cell()), trial);
+  });
+}
+
+}  // namespace fenestra

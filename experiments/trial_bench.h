@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/calibration.h"
+#include "experiments/sampling.h"
+#include "experiments/study.h"
+#include "experiments/theory/trial_information.h"
+#include "experiments/trial_record.h"
+#include "sim/depth_frame.h"
+#include "sim/ground_truth.h"
+#include "sim/truth_images.h"
+
+namespace fenestra {
+
+/// One trial up to the point where detectors take over.
+struct SimulatedTrial {
+  Trial trial;
+  SensorCalibration calibration;  ///< What detectors are told.
+  Observation observation;
+  GroundTruth truth;
+  /// What the observation tells of the target; nullopt where theory has no word for it.
+  std::optional<TrialInformation> information{};
+};
+
+/// One detector's attempt at a simulated trial.
+struct Attempt {
+  TrialRecord record;
+  StageLog log;
+};
+
+/// Where the trials of one cell are made. Const calls are thread-safe and single-threaded inside; a
+/// trial's result depends on the study, the cell and the trial's index alone. CellBench is the real
+/// one; tests and measurements of the harness put quick ones in its place.
+class TrialBench {
+ public:
+  virtual ~TrialBench() = default;
+
+  virtual const Cell& cell() const = 0;
+  virtual const std::vector<DetectorChoice>& detectors() const = 0;
+
+  virtual SimulatedTrial Simulate(int trial_index) const = 0;
+
+  /// Runs one detector on what it may see, then scores. A detector that throws is recorded as
+  /// crashed.
+  virtual Attempt Try(size_t detector, const SimulatedTrial& simulated,
+                      bool keep_artifacts) const = 0;
+
+  /// Per-pixel truth of the left (stereo) or depth camera.
+  virtual TruthImages TruthOf(const SimulatedTrial& simulated) const = 0;
+
+  /// The depth image with what detectors never see of it: why pixels have no return, and the
+  /// infra-red image if there is one. nullopt for stereo.
+  virtual std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const = 0;
+};
+
+}  // namespace fenestra
