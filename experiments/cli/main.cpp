@@ -88,6 +88,8 @@ int Main(int argc, char** argv) {
   AddExportCommand(program, exit_code);
   AddReplayCommand(program, exit_code);
   AddReportCommand(program, exit_code);
+  AddMergeCommand(program, exit_code);
+  AddSubmitCommand(program, exit_code);
   AddDetectCommand(program, exit_code);
   AddBoundCommand(program, exit_code);
   AddCalibrateCommand(program, exit_code);

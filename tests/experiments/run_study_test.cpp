@@ -13,15 +13,9 @@
 #include <set>
 #include <thread>
 
-#include "core/input_error.h"
 #include "core/random_stream.h"
-#include "experiments/report.h"
-#include "experiments/result_files.h"
-#include "experiments/store.h"
-#include "experiments/study_reader.h"
-#include "tests/experiments/mock_bench.h"
+#include "tests/experiments/mock_study.h"
 #include "tests/support/temporary_folder.h"
-#include "vision/detector_registry.h"
 
 namespace fenestra {
 namespace {
@@ -30,26 +24,12 @@ using std::chrono::milliseconds;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using testing::MockBench;
-using ::testing::Not;
+using testing::MockRun;
+using testing::MockStudy;
 using testing::ReadFile;
+using testing::Refusal;
+using testing::RowsIn;
 using testing::TemporaryFolder;
-
-Study MockStudy(int repetitions, int seed = 3) {
-  const std::string text = "name: mock\nseed: " + std::to_string(seed) +
-                           "\nrepetitions: " + std::to_string(repetitions) +
-                           "\nsensors: [stereo]\nfactors:\n  distance_m: [2, 3, 4]\n"
-                           "  yaw_deg: {uniform: [-2, 2]}\n";
-  return ReadStudy(YamlReader::FromText(text, "mock.yaml"), Detectors());
-}
-
-StudyRun MockRun(const Study& study, const std::filesystem::path& out) {
-  return {.study = study,
-          .study_text = "",
-          .out = out,
-          .jobs = 2,
-          .pictures = false,
-          .make_bench = MockBench::Make};
-}
 
 /// A mock whose trials take a millisecond.
 std::shared_ptr<const TrialBench> MakeSlowBench(const Study& study, const Cell& cell) {
@@ -71,19 +51,6 @@ std::shared_ptr<const TrialBench> MakeSlowBench(const Study& study, const Cell& 
     MockBench quick_;
   };
   return std::make_shared<const SlowBench>(study, cell);
-}
-
-std::string RowsIn(const std::filesystem::path& out) {
-  return TrialsCsv(ResultStore::OpenReadOnly(out / "results.sqlite").Rows());
-}
-
-std::string Refusal(const StudyRun& run) {
-  try {
-    RunStudy(run);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 TEST(RunStudyTest, ARunThatWasStoppedGoesOnAndGivesTheRowsOfOneThatWasNot) {
@@ -134,13 +101,13 @@ TEST(RunStudyTest, AnotherResultIsNamedAndUntouchedUntilItIsReplacedOnPurpose) {
   RunStudy(MockRun(MockStudy(2), out));
   const std::string before = ReadFile(out / "results.sqlite");
 
-  EXPECT_THAT(Refusal(MockRun(MockStudy(2, 4), out)),
+  EXPECT_THAT(Refusal([&] { RunStudy(MockRun(MockStudy(2, 4), out)); }),
               AllOf(HasSubstr("'seed: 3' there, 'seed: 4' here"), HasSubstr("--restart")));
-  EXPECT_THAT(Refusal(MockRun(MockStudy(3), out)),
+  EXPECT_THAT(Refusal([&] { RunStudy(MockRun(MockStudy(3), out)); }),
               HasSubstr("'main: repetitions: 2' there, 'main: repetitions: 3' here"));
   StudyRun shard = MockRun(MockStudy(2), out);
   shard.shard = {1, 2};
-  EXPECT_THAT(Refusal(shard), HasSubstr("shard: 1/1 there, 1/2 here"));
+  EXPECT_THAT(Refusal([&] { RunStudy(shard); }), HasSubstr("shard: 1/1 there, 1/2 here"));
   EXPECT_EQ(ReadFile(out / "results.sqlite"), before);
 
   StudyRun other = MockRun(MockStudy(3), out);
@@ -163,7 +130,7 @@ TEST(RunStudyTest, TwoRunsIntoOneFolderAreKeptApart) {
   StudyRun run = MockRun(MockStudy(2), folder / "out");
   const StudyRun second = MockRun(MockStudy(2), folder / "out");
   std::string refusal;
-  run.on_start = [&](const RunStart&) { refusal = Refusal(second); };
+  run.on_start = [&](const RunStart&) { refusal = Refusal([&] { RunStudy(second); }); };
   EXPECT_TRUE(RunStudy(run).complete());
   EXPECT_THAT(refusal, HasSubstr("another process is running a study into this folder"));
 }
@@ -174,29 +141,8 @@ TEST(RunStudyTest, TheFirstTrialThatCannotBeStoredEndsTheRun) {
   run.store_interval = milliseconds(1);
   run.make_bench = MakeSlowBench;
   run.on_stored = [](auto) { throw InputError("disk", "is full"); };
-  EXPECT_THAT(Refusal(run), HasSubstr("disk: is full"));
+  EXPECT_THAT(Refusal([&] { RunStudy(run); }), HasSubstr("disk: is full"));
   EXPECT_LT(ResultStore::OpenReadOnly(run.out / "results.sqlite").FinishedTrials().size(), 600u);
-}
-
-/// Runs in a process of its own that is killed after `delay`; trials that are reported as stored
-/// are noted in `reported`. Returns whether the run came to its end before.
-bool RunAndKill(StudyRun run, std::chrono::microseconds delay,
-                const std::filesystem::path& reported) {
-  const pid_t child = fork();
-  if (child == 0) {
-    FILE* notes = fopen(reported.c_str(), "a");
-    run.on_stored = [notes](std::span<const TrialRecord> rows) {
-      fprintf(notes, "%d %d\n", rows[0].cell, rows[0].trial);
-      fflush(notes);
-    };
-    RunStudy(run);
-    _exit(0);
-  }
-  std::this_thread::sleep_for(delay);
-  kill(child, SIGKILL);
-  int status = 0;
-  waitpid(child, &status, 0);
-  return WIFEXITED(status);
 }
 
 /// The trials of whole lines; the last line may be cut.
@@ -208,6 +154,33 @@ std::set<TrialKey> ReadReported(const std::filesystem::path& file) {
   return keys;
 }
 
+/// A run in a process of its own, which notes in `reported` the trials that are reported as stored.
+pid_t StartRun(StudyRun run, const std::filesystem::path& reported) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  FILE* notes = fopen(reported.c_str(), "a");
+  run.on_stored = [notes](std::span<const TrialRecord> rows) {
+    fprintf(notes, "%d %d\n", rows[0].cell, rows[0].trial);
+    fflush(notes);
+  };
+  RunStudy(run);
+  _exit(0);
+}
+
+/// Waits until so many trials are reported, however slow the machine is; then kills. Returns
+/// whether the run had ended by itself.
+bool KillAfter(pid_t child, size_t trials, std::chrono::microseconds delay,
+               const std::filesystem::path& reported) {
+  for (int i = 0; i < 30'000 && ReadReported(reported).size() < trials; ++i) {
+    std::this_thread::sleep_for(milliseconds(1));
+  }
+  std::this_thread::sleep_for(delay);
+  kill(child, SIGKILL);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status);
+}
+
 TEST(RunStudyTest, FiftyKillsAtRandomMomentsLoseNothingAndDoubleNothing) {
   const TemporaryFolder folder;
   const Study study = MockStudy(1000);
@@ -216,17 +189,21 @@ TEST(RunStudyTest, FiftyKillsAtRandomMomentsLoseNothingAndDoubleNothing) {
   run.store_interval = milliseconds(3);
   folder.Write("reported", "");
   const RandomStream random(50);
-  for (uint64_t kill = 0; kill < 50; ++kill) {
-    // Up to 60 ms: while the study is read, the store is made or opened, in and between commits.
-    const auto delay = std::chrono::microseconds(static_cast<int>(60e3 * random.Uniform(kill)));
-    ASSERT_FALSE(RunAndKill(run, delay, folder / "reported")) << "too quick: kill " << kill;
+  for (uint64_t i = 0; i < 50; ++i) {
+    // 0 to 30 trials and up to 10 ms more: while the store is made or opened, in and between
+    // commits.
+    const auto more = static_cast<size_t>(31 * random.Uniform(2 * i));
+    const auto delay = std::chrono::microseconds(static_cast<int>(1e4 * random.Uniform(2 * i + 1)));
+    const size_t before = ReadReported(folder / "reported").size();
+    const pid_t child = StartRun(run, folder / "reported");
+    ASSERT_FALSE(KillAfter(child, before + more, delay, folder / "reported")) << "kill " << i;
     if (!std::filesystem::exists(run.out / "results.sqlite")) continue;
     const auto stored = ResultStore::OpenReadOnly(run.out / "results.sqlite").FinishedTrials();
     const std::set<TrialKey> reported = ReadReported(folder / "reported");
     EXPECT_TRUE(std::includes(stored.begin(), stored.end(), reported.begin(), reported.end()));
   }
   const int64_t before = RunStudy(run).stored_before;
-  EXPECT_GT(before, 100);   // The kills left something to lose,
+  EXPECT_GT(before, 300);   // The kills left something to lose,
   EXPECT_LT(before, 3000);  // and something to do.
   RunStudy(MockRun(study, folder / "whole"));
   EXPECT_EQ(RowsIn(run.out), RowsIn(folder / "whole"));

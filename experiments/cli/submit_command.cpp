@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "core/atomic_file.h"
+#include "core/input_error.h"
+#include "experiments/cli/commands.h"
+#include "experiments/shell_quoting.h"
+#include "experiments/slurm_scripts.h"
+#include "experiments/study_catalogue.h"
+#include "experiments/study_reader.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubmitArguments {
+  std::string study;
+  bool slurm = false;
+  int shards = 1;
+  int jobs = 1;
+  fs::path out;
+  std::optional<uint64_t> seed;
+  std::optional<int> trials;
+  std::vector<std::string> sbatch_options;
+  bool dry_run = false;
+};
+
+SlurmSubmission SubmissionOf(const SubmitArguments& arguments, const std::string& name) {
+  SlurmSubmission submission{.program = fs::read_symlink("/proc/self/exe"),
+                             .study = {},
+                             .name = name,
+                             .run_options = {},
+                             .sbatch_options = arguments.sbatch_options,
+                             .out = arguments.out,
+                             .shards = arguments.shards,
+                             .jobs = arguments.jobs};
+  if (submission.out.empty()) submission.out = fs::path("results") / name;
+  submission.out = fs::absolute(submission.out).lexically_normal();
+  submission.study = submission.out / "slurm" / "study.yaml";
+  if (arguments.seed) submission.run_options.push_back(fmt::format("--seed={}", *arguments.seed));
+  if (arguments.trials) {
+    submission.run_options.push_back(fmt::format("--trials={}", *arguments.trials));
+  }
+  return submission;
+}
+
+// Runs sbatch and returns the number of the job.
+std::string Submit(const std::string& options, const fs::path& script) {
+  const std::string command =
+      fmt::format("sbatch --parsable {} {}", options, ShellQuoted(script.string()));
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) throw std::runtime_error("no process can be started for sbatch");
+  std::string answer;
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) answer += static_cast<char>(c);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) {
+    throw InputError("sbatch", "is not on this machine; --dry-run shows what would be submitted");
+  }
+  const std::string job = answer.substr(0, answer.find_first_of(";\n"));
+  if (status != 0 || job.empty()) throw std::runtime_error("sbatch failed: " + command);
+  return job;
+}
+
+void Submit(const SubmitArguments& arguments) {
+  if (!arguments.slurm) throw InputError("submit", "say where to: --slurm");
+  YamlReader reader = YamlReader::FromFile(FindStudy(arguments.study));
+  const std::string text = reader.text();
+  const Study study = ReadStudy(std::move(reader), Detectors());
+  const SlurmSubmission submission = SubmissionOf(arguments, study.name);
+  const fs::path folder = submission.out / "slurm";
+  constexpr const char* kDependent = "--kill-on-invalid-dep=yes --dependency=afterok:";
+  if (arguments.dry_run) {
+    fmt::print("# {}\n{}\n# {}\n{}\n# sbatch {}\n# sbatch {}ARRAY {}\n",
+               (folder / "array.sh").string(), SlurmArrayScript(submission),
+               (folder / "merge.sh").string(), SlurmMergeScript(submission),
+               (folder / "array.sh").string(), kDependent, (folder / "merge.sh").string());
+    return;
+  }
+  WriteFileAtomically(submission.study, text);
+  WriteFileAtomically(folder / "array.sh", SlurmArrayScript(submission));
+  WriteFileAtomically(folder / "merge.sh", SlurmMergeScript(submission));
+  const std::string array = Submit("", folder / "array.sh");
+  const std::string merge = Submit(kDependent + array, folder / "merge.sh");
+  fmt::print("Submitted: array {} of {} shards, then merge {}. The result will be in {}\n", array,
+             submission.shards, merge, submission.out.string());
+}
+
+}  // namespace
+
+void AddSubmitCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand("submit", "Shares a study out over a cluster");
+  command->footer(
+      "Example:\n"
+      "  fenestra submit paper --slurm --shards 20 --out /shared/paper --sbatch=--time=1:00:00\n"
+      "Submits a job array with a shard per task, and a job that merges them. All nodes must see\n"
+      "this program and DIR. Submitted again, it goes on from what is stored in DIR/shards.");
+  const auto arguments = std::make_shared<SubmitArguments>();
+  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
+  command->add_flag("--slurm", arguments->slurm, "To Slurm, with sbatch");
+  command->add_option("--shards", arguments->shards, "Into how many tasks the study is divided")
+      ->required()
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--jobs", arguments->jobs, "Trials at the same time in each task; default: 1")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--out", arguments->out, "Results folder; default: results/<study>");
+  command->add_option("--seed", arguments->seed, "Instead of the study's seed")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{INT64_MAX}));
+  command->add_option("--trials", arguments->trials, "Trials of each cell, instead of the study's")
+      ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option("--sbatch", arguments->sbatch_options,
+                   "A further option for both jobs, such as --sbatch=--partition=long")
+      ->allow_extra_args(false);
+  command->add_flag("--dry-run", arguments->dry_run, "Prints what it would submit");
+  command->callback([arguments, &exit_code] {
+    Submit(*arguments);
+    exit_code = kDone;
+  });
+}
+
+}  // namespace fenestra::cli
