@@ -6,6 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
+#include "experiments/prior_text.h"
 #include "experiments/report.h"
 #include "experiments/run_trials.h"
 #include "experiments/study_reader.h"
@@ -24,17 +25,19 @@ std::string Get(const StoreMetadata& metadata, const std::string& key) {
   return found == metadata.end() ? "" : found->second;
 }
 
-ReportTitle TitleOf(const ResultStore& store) {
+ReportTitle TitleOf(const ResultStore& store, const Study& study) {
   const StoreMetadata metadata = store.Metadata();
-  ReportTitle title{.study = Get(metadata, "name"),
-                    .description = Get(metadata, "description"),
+  ReportTitle title{.study = study.name,
+                    .description = study.description,
                     .provenance = {{"Fenestra", Get(metadata, "version")},
-                                   {"Seed", Get(metadata, "seed")},
+                                   {"Seed", std::to_string(study.seed)},
                                    {"Libraries", Get(metadata, "libraries")}}};
   if (const std::vector<RunEntry> runs = store.Runs(); !runs.empty()) {
     title.provenance.emplace_back("Processor", runs.back().processor);
     title.provenance.emplace_back("Jobs", std::to_string(runs.back().jobs));
   }
+  const auto priors = PriorEntries(study);
+  title.provenance.insert(title.provenance.end(), priors.begin(), priors.end());
   return title;
 }
 
@@ -56,13 +59,14 @@ std::vector<CellSummary> Summarise(const ResultStore& store) {
 }
 
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::path& folder) {
+  const Study study = StudyOf(store, folder / "results.sqlite");
   std::vector<CellSummary> summaries = Summarise(store);
   WriteFileAtomically(folder / "study.yaml", Get(store.Metadata(), "study"));
   WriteFileAtomically(folder / "trials.csv", [&store](std::ostream& out) {
     WriteTrialsCsv([&store](const auto& visit) { store.ForEachRow(visit); }, out);
   });
   WriteFileAtomically(folder / "summary.csv", SummaryCsv(summaries));
-  WriteFileAtomically(folder / "summary.md", SummaryMarkdown(TitleOf(store), summaries));
+  WriteFileAtomically(folder / "summary.md", SummaryMarkdown(TitleOf(store, study), summaries));
   return summaries;
 }
 

@@ -1,10 +1,8 @@
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "experiments/cli/commands.h"
+#include "experiments/cli/print_result.h"
 #include "experiments/merge.h"
-#include "experiments/report.h"
 
 namespace fenestra::cli {
 
@@ -21,9 +19,7 @@ void AddMergeCommand(CLI::App& program, int& exit_code) {
   command->add_option("--out", merge->out, "Results folder of the whole")->required();
   command->add_flag("--restart", merge->restart, "Replaces another result that is there");
   command->callback([merge, &exit_code] {
-    const std::vector<CellSummary> summaries = MergeShards(*merge);
-    fmt::print("{}\nTables, rows and pictures are in {}\n", SummaryForTerminal(summaries),
-               merge->out.string());
+    PrintResult(MergeShards(*merge), merge->out);
     exit_code = kDone;
   });
 }

@@ -1,10 +1,8 @@
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <memory>
 
 #include "experiments/cli/commands.h"
-#include "experiments/report.h"
+#include "experiments/cli/print_result.h"
 #include "experiments/result_files.h"
 
 namespace fenestra::cli {
@@ -23,8 +21,7 @@ void Report(const ReportArguments& arguments) {
   const std::filesystem::path out = arguments.out.empty() ? file.parent_path() : arguments.out;
   const std::vector<CellSummary> summaries = WriteResultFiles(store, out);
   if (arguments.pictures) WriteResultPictures(store, file, out, arguments.jobs);
-  fmt::print("{}\nTables and rows{} are in {}\n", SummaryForTerminal(summaries),
-             arguments.pictures ? " and pictures" : "", out.empty() ? "." : out.string());
+  PrintResult(summaries, out);
 }
 
 }  // namespace

@@ -8,9 +8,8 @@
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
+#include "experiments/cli/print_result.h"
 #include "experiments/cli/progress.h"
-#include "experiments/prior_text.h"
-#include "experiments/report.h"
 #include "experiments/run_study.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
@@ -75,8 +74,7 @@ int Run(const RunArguments& arguments) {
   if (result.stored_before == result.trials) {
     fmt::print("The result in {} is complete; nothing was run.\n\n", run.out.string());
   }
-  fmt::print("{}\nTables, rows and pictures are in {}\n", SummaryForTerminal(result.summaries),
-             run.out.string());
+  PrintResult(result.summaries, run.out);
   return kDone;
 }
 
