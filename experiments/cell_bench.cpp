@@ -21,7 +21,7 @@ CellBench::World::World(const TrialSettings& settings)
     : scene(MakeScene(settings)), caster(scene) {}
 
 CellBench::CellBench(const Study& study, const Cell& cell)
-    : study_(study), cell_(cell), detector_choices_(DetectorsOf(study, cell)) {
+    : cell_(cell), sampler_(study, cell), detector_choices_(DetectorsOf(study, cell)) {
   bool scene_is_drawn = false;
   bool sensor_is_drawn = false;
   for (const auto& [name, distribution] : DrawnFactors(study, cell)) {
@@ -33,7 +33,7 @@ CellBench::CellBench(const Study& study, const Cell& cell)
   if (cell.sensor == SensorKind::kStereo) sensor_is_drawn |= cell.settings.stereo_rig_per_trial;
   if (!sensor_is_drawn) {
     shared_instrument_ = std::make_shared<const Instrument>(
-        MakeInstrument(cell.settings, TrialStream(study, cell, 0)));
+        MakeInstrument(cell.settings, SharedStreams(study, cell)));
     for (const DetectorChoice& choice : detector_choices_) {
       shared_detectors_.push_back(
           MakeDetector(choice.name, shared_instrument_->calibration, choice.options));
@@ -42,7 +42,7 @@ CellBench::CellBench(const Study& study, const Cell& cell)
 }
 
 CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
-                                                const RandomStream& trial) const {
+                                                const TrialStreams& streams) const {
   if (cell_.sensor == SensorKind::kRgbd) {
     StructuredLightSensor sensor(settings.rgbd);
     const RgbdCalibration calibration = sensor.nominal();
@@ -52,9 +52,9 @@ CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
             .calibration_law = {},
             .depth_theory = theory};
   }
-  const StereoRig built(settings.stereo, trial.Child("rig"));
+  const StereoRig built(settings.stereo, streams.rig);
   CalibratedRig calibrated =
-      Calibrated(built, settings.stereo_calibration, trial.Child("calibration"), cache_);
+      Calibrated(built, settings.stereo_calibration, streams.calibration, cache_);
   return {.sensor = std::move(calibrated.rig),
           .calibration = calibrated.told,
           .calibration_law = calibrated.law,
@@ -67,16 +67,16 @@ std::shared_ptr<const CellBench::World> CellBench::WorldOf(const TrialSettings& 
 
 std::shared_ptr<const CellBench::Instrument> CellBench::InstrumentOf(const Trial& trial) const {
   if (shared_instrument_) return shared_instrument_;
-  return std::make_shared<const Instrument>(MakeInstrument(trial.settings, trial.stream));
+  return std::make_shared<const Instrument>(MakeInstrument(trial.settings, trial.streams));
 }
 
 SimulatedTrial CellBench::Simulate(int trial_index) const {
-  Trial trial = SampleTrial(study_, cell_, trial_index);
+  Trial trial = sampler_.Sample(trial_index);
   const TrialSettings& settings = trial.settings;
   const auto world = WorldOf(settings);
   const auto instrument = InstrumentOf(trial);
   const Pose X_WB = RigPoseOf(settings, world->scene);
-  const RandomStream shot = trial.stream.Child("shot");
+  const RandomStream& shot = trial.streams.shot;
   SimulatedTrial simulated{.trial = trial,
                            .calibration = instrument->calibration,
                            .observation = {},

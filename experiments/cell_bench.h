@@ -44,12 +44,12 @@ class CellBench final : public TrialBench {
     std::optional<DepthTheory> depth_theory;    ///< Of a structured-light sensor.
   };
 
-  Instrument MakeInstrument(const TrialSettings& settings, const RandomStream& trial) const;
+  Instrument MakeInstrument(const TrialSettings& settings, const TrialStreams& streams) const;
   std::shared_ptr<const World> WorldOf(const TrialSettings& settings) const;
   std::shared_ptr<const Instrument> InstrumentOf(const Trial& trial) const;
 
-  Study study_;
   Cell cell_;
+  TrialSampler sampler_;
   std::vector<DetectorChoice> detector_choices_;
   CalibrationCache cache_ = CalibrationCache::OfUser();
   std::shared_ptr<const World> shared_world_;            ///< Null if trials draw the scene.

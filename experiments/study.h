@@ -7,6 +7,7 @@
 
 #include "core/observation.h"
 #include "core/parameter_table.h"
+#include "experiments/design/sampling_design.h"
 #include "experiments/distribution.h"
 #include "experiments/factors.h"
 #include "experiments/trial_settings.h"
@@ -48,6 +49,7 @@ struct StudyPart {
   /// gives them, then all others at their defaults.
   std::vector<Factor> factors;
   int repetitions;  ///< Trials of each cell.
+  SamplingDesign design;
 
   bool operator==(const StudyPart&) const = default;
 };

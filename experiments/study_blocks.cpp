@@ -74,7 +74,8 @@ const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
 }
 
 const std::vector<std::string>& BlockKeys() {
-  static const std::vector<std::string> keys{"repetitions", "sensors", "detectors", "factors"};
+  static const std::vector<std::string> keys{"repetitions", "sensors", "detectors", "design",
+                                             "factors"};
   return keys;
 }
 
@@ -94,6 +95,10 @@ StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
   if (const YAML::Node detectors = node["detectors"]; detectors.IsDefined()) {
     block.detectors = ReadDetectors(reader, detectors, known_detectors);
     block.sound = block.sound && block.detectors.has_value();
+  }
+  if (const YAML::Node design = node["design"]; design.IsDefined()) {
+    block.design = ReadDesign(reader, design);
+    block.sound = block.sound && block.design.has_value();
   }
   if (const YAML::Node factors = node["factors"]; factors.IsDefined()) {
     block.factors = ReadFactors(reader, factors);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/yaml_reader.h"
+#include "experiments/design/design_reader.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/study.h"
 
@@ -24,6 +25,7 @@ struct StudyBlock {
   std::optional<std::vector<GivenDetector>> detectors;
   std::vector<GivenFactor> factors;
   std::optional<int> repetitions;
+  std::optional<GivenDesign> design;
   /// Whether the block was read without faults. What it lacks may else be only misspelt.
   bool sound = true;
 

@@ -115,11 +115,16 @@ class StudyReader {
                    .sensors = {SensorKind::kStereo, SensorKind::kRgbd},
                    .detectors = {},
                    .factors = {},
-                   .repetitions = 1};
+                   .repetitions = 1,
+                   .design = {}};
     if (draft.common.sensors) part.sensors = *draft.common.sensors;
     if (draft.own.sensors) part.sensors = *draft.own.sensors;
     part.detectors = ResolveDetectors(draft, part.sensors);
     part.factors = ResolveFactors(draft, part);
+    const auto& design = draft.own.design ? draft.own.design : draft.common.design;
+    if (design && draft.sound()) {
+      part.design = ResolveDesign(reader_, *design, part, draft.own.design.has_value());
+    }
     const auto repetitions =
         draft.own.repetitions ? draft.own.repetitions : draft.common.repetitions;
     if (repetitions) {
@@ -202,6 +207,7 @@ class StudyReader {
           [&name](const StudyPart& part) { return !WhyWithoutEffect(name, part).empty(); });
       if (idle) reader_.AddFault(given.key, name + " has no effect in any part");
     }
+    CheckCorrelationsOfAll(study, drafts);
     for (const GivenDetector& given : drafts.front().common.detectors.value_or(NoDetectors())) {
       const SensorKind sensor = given.choice.sensor;
       const bool idle =
@@ -213,6 +219,24 @@ class StudyReader {
         reader_.AddFault(given.node, fmt::format("{} works on {}, which no part uses",
                                                  given.choice.name, ToString(sensor)));
       }
+    }
+  }
+
+  // Those that the study gives, in some part.
+  void CheckCorrelationsOfAll(const Study& study, const std::vector<PartDraft>& drafts) {
+    if (!drafts.front().common.design) return;
+    const GivenDesign& given = *drafts.front().common.design;
+    for (size_t i = 0; i < given.design.correlations.size(); ++i) {
+      const FactorCorrelation& correlation = given.design.correlations[i];
+      const bool idle =
+          std::none_of(study.parts.begin(), study.parts.end(), [&](const StudyPart& part) {
+            const auto& known = part.design.correlations;
+            return std::find(known.begin(), known.end(), correlation) != known.end();
+          });
+      if (!idle) continue;
+      reader_.AddFault(given.correlation_nodes[i],
+                       fmt::format("no part draws both {} and {} from distributions",
+                                   correlation.first, correlation.second));
     }
   }
 

@@ -19,15 +19,17 @@ namespace fenestra {
 ///   sensors: [stereo, rgbd]      # default: both
 ///   detectors: [paper-stereo, {name: paper-rgbd, label: mine, options: {…}}]
 ///                                # default: every detector of the sensors
+///   design: sobol                # see design/design_reader.h; default: monte_carlo
 ///   factors:                     # see factor_reader.h
 ///     distance_m: [1.4, 2, 3]
 ///   parts:                       # default: a single part, "main"
 ///     - name: near
 ///       factors: {distance_m: [0.59, 0.78]}
 ///
-/// A part may have repetitions, sensors, detectors and factors of its own. Its factors are put in
-/// the places of the study's factors of the same name, or behind them; everything else replaces
-/// what the study says. Of the study's detectors a part takes those that work on its sensors.
+/// A part may have repetitions, sensors, detectors, a design and factors of its own. Its factors
+/// are put in the places of the study's factors of the same name, or behind them; everything else
+/// replaces what the study says. Of the study's detectors a part takes those that work on its
+/// sensors.
 ///
 /// A factor that cannot have an effect where it is given is a fault, as are settings that
 /// contradict each other, more than kMostCells cells and more than kMostTrials trials.

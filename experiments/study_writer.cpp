@@ -52,6 +52,20 @@ std::string Text(const DetectorChoice& detector) {
   return text;
 }
 
+std::string Text(const SamplingDesign& design) {
+  std::string text = fmt::format("    design:\n      method: {}\n", ToString(design.method));
+  if (!design.correlations.empty()) text += "      correlations:\n";
+  for (const FactorCorrelation& c : design.correlations) {
+    text += fmt::format("        - {{between: [{}, {}], spearman: {}}}\n", c.first, c.second,
+                        c.spearman);
+  }
+  if (!design.causes.empty()) text += "      causes:\n";
+  for (const Cause& cause : design.causes) {
+    text += fmt::format("        {}: [{}]\n", cause.name, fmt::join(cause.sources, ", "));
+  }
+  return text;
+}
+
 std::string Text(const StudyPart& part) {
   std::string sensors;
   for (const SensorKind sensor : part.sensors) {
@@ -59,6 +73,7 @@ std::string Text(const StudyPart& part) {
   }
   std::string text = fmt::format("  - name: {}\n    repetitions: {}\n    sensors: [{}]\n",
                                  part.name, part.repetitions, sensors);
+  text += Text(part.design);
   text += "    detectors:\n";
   for (const DetectorChoice& detector : part.detectors) text += Text(detector);
   text += "    factors:\n";

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <fstream>
 #include <opencv2/core/utility.hpp>
+#include <openturns/PlatformInfo.hxx>
 
 #include "experiments/shell_quoting.h"
 #include "renderers/embree_version.h"
@@ -57,9 +58,10 @@ const char* Version() {
 }
 
 std::string LibraryVersions() {
-  return fmt::format("Embree {}, OpenCV {}, PCL {}, Eigen {}.{}.{}, SQLite {}", EmbreeVersion(),
-                     cv::getVersionString(), PCL_VERSION_PRETTY, EIGEN_WORLD_VERSION,
-                     EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, sqlite3_libversion());
+  return fmt::format("Embree {}, OpenCV {}, PCL {}, Eigen {}.{}.{}, SQLite {}, OpenTURNS {}",
+                     EmbreeVersion(), cv::getVersionString(), PCL_VERSION_PRETTY,
+                     EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                     sqlite3_libversion(), OT::PlatformInfo::GetVersion());
 }
 
 std::string Processor() {

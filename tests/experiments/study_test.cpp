@@ -101,7 +101,7 @@ TEST(Sampling, ATrialIsAFunctionOfItsIndex) {
   const Trial once = SampleTrial(study, cell, 2);
   const Trial again = SampleTrial(study, cell, 2);
   EXPECT_EQ(once.drawn, again.drawn);
-  EXPECT_EQ(once.stream.key(), again.stream.key());
+  EXPECT_EQ(once.streams.shot.key(), again.streams.shot.key());
   ASSERT_EQ(once.drawn.size(), 1u);
   // Degrees go through radians and back: one rounding.
   EXPECT_DOUBLE_EQ(Number(Factors().Get(once.settings, "yaw_deg")), Number(once.drawn[0].second));
@@ -114,7 +114,7 @@ TEST(Sampling, CellsShareTheirRandomNumbers) {
   const std::vector<Cell> cells = Cells(study);
   for (int trial = 0; trial < 100; ++trial) {
     const Trial first = SampleTrial(study, cells.front(), trial);
-    EXPECT_EQ(first.stream.key(), SampleTrial(study, cells.back(), trial).stream.key());
+    EXPECT_EQ(first.streams.shot.key(), SampleTrial(study, cells.back(), trial).streams.shot.key());
     EXPECT_EQ(first.drawn, SampleTrial(study, cells[7], trial).drawn);
     const double rank = (Number(first.drawn[0].second) + 3.0) / 6.0;
     const double yaw = Number(SampleTrial(study, cells.back(), trial).drawn[0].second);
@@ -131,7 +131,7 @@ TEST(Sampling, TrialsDiffer) {
   for (int trial = 0; trial < 1000; ++trial) {
     const Trial sample = SampleTrial(study, cell, trial);
     yaws.insert(Number(sample.drawn[0].second));
-    keys.insert(sample.stream.key());
+    keys.insert(sample.streams.shot.key());
   }
   EXPECT_EQ(yaws.size(), 1000u);
   EXPECT_EQ(keys.size(), 1000u);
@@ -159,7 +159,7 @@ TEST(Sampling, IndependentCellsShareNothing) {
   std::set<uint64_t> keys;
   for (const Cell& cell : cells) {
     for (int trial = 0; trial < 50; ++trial) {
-      keys.insert(SampleTrial(study, cell, trial).stream.key());
+      keys.insert(SampleTrial(study, cell, trial).streams.shot.key());
     }
   }
   EXPECT_EQ(keys.size(), 50 * cells.size());
