@@ -13,6 +13,8 @@ namespace fenestra {
 ///
 /// a pixel's longer extent across the edge is integrated, the shorter one counts by its variance,
 /// which is exact for edges along rows and columns. P goes from 0 to 1.
+///
+/// Its ramp grows with s on the outer side only: R(s) = s Φ(s/σ") + σ" φ(s/σ"), σ"² = σ² + 1/12.
 class BlurredStep {
  public:
   /// sigma_px > 0.
@@ -22,6 +24,7 @@ class BlurredStep {
     double p;
     double by_s;      ///< [1/px]
     double by_sigma;  ///< [1/px]
+    double ramp;      ///< R [px].
   };
   /// From a table with linear interpolation: right to 1e-4.
   Value At(double s_px) const;

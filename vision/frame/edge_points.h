@@ -24,13 +24,26 @@ struct EdgePoint {
   Eigen::Vector2d normal;  ///< Across the edge, out of the frame's centre.
   Eigen::Vector2d pixel;
   double sigma_px;  ///< Standard deviation of `pixel` along `normal`.
+  /// What all points of this side in this view may be off together, besides: what is not known of
+  /// blur, slopes and full scale, and what the model of lens and light is worth.
+  double common_sigma_px = 0.0;
 };
 
-/// What is learnt of an edge while it is measured, for the next time.
+/// What is learnt of a side while it is measured, for the next time (see step_fit.h).
 struct EdgeTuning {
-  double blur_px = 0.5;        ///< Standard deviation of the lens' blur.
+  static constexpr int kShared = 5;
+  /// Standard deviation of the lens' blur in the middle of the side, how it changes and bends along
+  /// it [px], and slopes of the grey values outside and inside, as shares of the step [1/px].
+  Eigen::Matrix<double, kShared, 1> shared = {0.5, 0.0, 0.0, 0.0, 0.0};
   double dark_variance = 1.0;  ///< Of the grey values on either side [DN²].
   double bright_variance = 1.0;
+  double rise_dn = 0.0;  ///< Mean step; 0: not known yet. Only used where pixels are at full scale.
+
+  double blur_px() const { return shared[0]; }
+  double blur_change_px() const { return shared[1]; }
+  double blur_bend_px() const { return shared[2]; }
+  double slope_outside() const { return shared[3]; }
+  double slope_inside() const { return shared[4]; }
 };
 
 enum class Brighter { kOutside, kInside };
@@ -50,15 +63,11 @@ struct SideEdges {
 };
 
 /// Looks for the edge along a side of the frame, near to where the frame as it is assumed would
-/// have it. The side is divided into places of some pixels' length; in each one
-///
-///     I = a + g P(s - s0)                                                     (blurred_step.h)
-///
-/// is fitted to all its pixels by weighted least squares, with s the pixel's distance from the
-/// assumed edge. A pixel's weight is the inverse of its variance, which goes from the dark side's
-/// to the bright one's with P. s0's variance is that of the fit, scaled by the residuals: by their
-/// median over the side's places, since a place has few pixels, or by the place's own where
-/// these are more than twice as large. Places without such an edge are left out.
+/// have it. The side is cut into strips (edge_strips.h), in each of which a step is fitted to all
+/// its pixels (step_fit.h). A pixel's weight is the inverse of its variance, which goes from the
+/// dark side's to the bright one's with P. s0's variance is that of the fit, scaled by the
+/// residuals: by their median over the side's strips, since one has few pixels, or by the strip's
+/// own where these are more than twice as large. Strips without such an edge are left out.
 SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame,
                       const SideRequest& request, const EdgeTuning& tuning);
 

@@ -5,38 +5,10 @@
 #include <vector>
 
 #include "vision/frame/edge_points.h"
+#include "vision/frame/frame_knowledge.h"
 #include "vision/frame/frame_rectangle.h"
 
 namespace fenestra {
-
-/// What is known of a frame before it is seen.
-struct SizePrior {
-  double width_m;
-  double height_m;
-  double sigma_m;
-};
-
-/// How far sides may be from the frame's plane.
-struct ReliefPrior {
-  double mean_m;
-  double sigma_m;
-};
-
-/// A plane parallel to the frame's front that was measured without looking at the frame's edges, as
-/// depth does: { p : m·p = 1 }, in L, with m = n/(n·p_LO + relief) for a frame of normal n.
-struct PlaneMeasurement {
-  Eigen::Vector3d m;            ///< [1/m]
-  Eigen::Matrix3d information;  ///< Of m; inverse of its covariance, or of less rank [m²].
-  double relief_m = 0.0;        ///< Of the plane before (+) or behind the frame's front.
-};
-
-/// What is assumed of a frame. Sides without a relief are in its plane.
-struct FrameKnowledge {
-  std::optional<SizePrior> size;
-  std::optional<ReliefPrior> outer_relief;
-  std::optional<ReliefPrior> inner_relief;
-  std::vector<PlaneMeasurement> planes{};
-};
 
 struct FrameAdjustment {
   FrameRectangle frame;
@@ -61,7 +33,8 @@ struct FrameAdjustment {
 /// the residuals' scale: edges that are off by more than their noise count less beside them.
 ///
 /// The covariance is (JᵀWJ)⁻¹ times the inliers' mean square where that is above 1: edges of
-/// textured walls are off by more than noise explains. nullopt if the points fix no rectangle.
+/// textured walls are off by more than noise explains. What the points of one side in one view may
+/// be off together is carried through to it. nullopt if the points fix no rectangle.
 std::optional<FrameAdjustment> AdjustFrame(std::span<const CameraView> views,
                                            const std::vector<std::vector<EdgePoint>>& points,
                                            const FrameRectangle& start,

@@ -11,7 +11,8 @@ constexpr double kEndShare = 0.1;
 // From the outer edge, so that its blur is not taken for the border's end.
 constexpr double kClear_px = 2.0;
 
-// Mean grey value along a side of the inner rectangle; nullopt where too little is in the image.
+}  // namespace
+
 std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& frame, Side side) {
   double sum = 0.0;
   int count = 0;
@@ -28,8 +29,6 @@ std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& fr
   if (2 * count < kPlaces) return std::nullopt;
   return sum / count;
 }
-
-}  // namespace
 
 std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectangle& frame,
                                       const BorderSearch& search) {

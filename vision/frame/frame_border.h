@@ -19,6 +19,9 @@ struct BorderFound {
   double contrast_dn;                ///< Mean over the sides.
 };
 
+/// Mean grey value along a side of the inner rectangle; nullopt where too little is in the image.
+std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& frame, Side side);
+
 /// Where the frame ends and the opening begins: the inset at which the grey values, averaged along
 /// each side, change most, as summed over the four sides. nullopt where they hardly change, as
 /// in front of a dark room. Right to a pixel.

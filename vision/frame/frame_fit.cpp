@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "vision/frame/frame_depth.h"
+
 namespace fenestra {
 namespace {
 
@@ -21,13 +23,14 @@ constexpr double kLeastReach_px = 1.6;
 constexpr double kLeastInnerSupport = 0.5;
 // With fewer in a first round it is not worth while to go on.
 constexpr double kHopelessSupport = 0.3;
+// Residuals over their standard deviations, where all sides are what they are taken for. Between
+// two planes, half a side's edges on either, they would be dozens.
+constexpr double kMostScale = 2.5;
 // Of the places along each outer side.
 constexpr double kFlatSupport = 0.5;
-// Panes stand in the frame's thickness, a wall's face or a sill up to some decimetre before it.
-constexpr ReliefPrior kPanes{.mean_m = -0.03, .sigma_m = 0.03};
+// A wall's face or a sill stands up to some decimetre before the frame; see also kPanes.
 constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
 constexpr ReliefPrior kBehind{.mean_m = -0.05, .sigma_m = 0.1};
-constexpr double kRebate_m = 0.085;
 
 // Width of the border in the image, where it is narrowest.
 double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
@@ -61,20 +64,6 @@ void CountSupport(const PlaceCounts& places, FrameFit& fit) {
     }
   }
   if (places.inner > 0) fit.inner_support = inner / places.inner;
-}
-
-// The frame's front, where its inner sides are seen this far behind its outer ones.
-void StandBack(FrameFit& fit) {
-  FrameAdjustment& adjustment = fit.adjustment;
-  const double inner_m = adjustment.frame.inner_relief_m;
-  const double sigma_m = std::sqrt(adjustment.covariance(13, 13));
-  if (inner_m + 2.0 * sigma_m > -kRebate_m) return;  // A far frame's thickness is but guessed.
-  const Eigen::Vector3d normal = adjustment.frame.R_LO.col(2);
-  adjustment.frame.p_LO += (inner_m - kPanes.mean_m) * normal;
-  for (double& relief_m : adjustment.frame.outer_relief_m) relief_m -= inner_m - kPanes.mean_m;
-  adjustment.frame.inner_relief_m = kPanes.mean_m;
-  const double variance = adjustment.covariance(13, 13) + kPanes.sigma_m * kPanes.sigma_m;
-  adjustment.covariance.block<3, 3>(3, 3) += variance * normal * normal.transpose();
 }
 
 }  // namespace
@@ -160,7 +149,10 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
   }
   auto fit = Rounds(start, {}, kPlaneTolerances_px);
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
-  if (border_ && fit->inner_support < kLeastInnerSupport) return std::nullopt;
+  if (border_ && (fit->inner_support < kLeastInnerSupport || fit->adjustment.scale > kMostScale)) {
+    return std::nullopt;
+  }
+  fit->knows_depth = border_.has_value();
   return fit;
 }
 
@@ -171,12 +163,13 @@ std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
   if (first && first->inner_support >= kHopelessSupport) {
     fit = Rounds(start, knowledge, kPlaneTolerances_px);
   }
-  if (!fit || fit->LeastSupport() < kFlatSupport || fit->inner_support < kLeastInnerSupport) {
+  if (!fit || fit->LeastSupport() < kFlatSupport || fit->inner_support < kLeastInnerSupport ||
+      fit->adjustment.scale > kMostScale) {
     border_.reset();
     fit = Rounds(start, {}, kPlaneTolerances_px);
   }
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
-  StandBack(*fit);
+  StandBack(views_, settings_.black_dn, *fit);
   return fit;
 }
 
@@ -202,6 +195,9 @@ std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
     if (!fit) border_ = border;
   }
   if (!fit) fit = FitInRelief(start);
+  if (fit && !fit->knows_depth && settings_.planes.empty()) {
+    SettleDepth(views_, settings_.black_dn, *fit);
+  }
   if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
   if (fit->LeastSupport() < settings_.min_side_support) {
     return Miss{"unsupported_side",

@@ -19,6 +19,7 @@ struct FrameFitSettings {
   BorderSearch border;
   std::optional<SizePrior> size;  ///< Used in the last adjustment only.
   std::vector<PlaneMeasurement> planes{};
+  double black_dn = 8.0;  ///< Grey value without light.
 };
 
 struct FrameFit {
@@ -29,6 +30,9 @@ struct FrameFit {
   std::array<double, 4> outer_support = {};
   double inner_support = 0.0;
   bool is_flat = true;  ///< Whether the outer sides are in one plane, as well as the images tell.
+  /// Whether the frame's own depth was seen, by its inner sides, and not only the outer ones',
+  /// which may be the wall's.
+  bool knows_depth = false;
 
   double LeastSupport() const;
   double MeanSupport() const;
@@ -58,6 +62,10 @@ class FrameFitter {
   ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame
   ///   there;
   ///   4. all in one plane, but only to 0.7 px.
+  ///
+  /// Where the inner sides do not tell how deep the frame stands, its reveal may (frame_setback.h).
+  /// Where nothing does, the covariance allows for 5 cm. With planes that were measured otherwise
+  /// all that is left alone.
   ///
   /// Miss: "no_edges", "unsupported_side".
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);

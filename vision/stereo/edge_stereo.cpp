@@ -17,6 +17,8 @@ constexpr double kReach_px = 4.0;
 constexpr int kMostFinished = 4;
 // Candidates that begin with less than this share of the best one's score are not measured.
 constexpr double kHopeless = 0.7;
+constexpr double kOpening = 0.5;  // Of the places along the inner sides.
+constexpr double kLight = 0.9;    // See BrightBand.
 
 const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
   Validate(options);
@@ -54,7 +56,9 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                .border = {.smallest_m = options.min_border_m,
                           .largest_share = options.max_border_share,
                           .min_contrast_dn = options.min_contrast_dn},
-               .size = SizePriorOf(options.prior)} {}
+               .size = SizePriorOf(options.prior),
+               .planes = {},
+               .black_dn = options.black_dn} {}
 
 Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   const StereoObservation& seen = StereoPart(observation);
@@ -135,7 +139,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     if (const Miss* miss = std::get_if<Miss>(&result)) {
       objection = *miss;
     } else {
-      objection = Objection(views[0], std::get<FrameFit>(result).adjustment.frame);
+      objection = Objection(views[0], std::get<FrameFit>(result));
     }
     if (objection) {
       if (!first_objection) first_objection = objection;
@@ -180,13 +184,18 @@ std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilat
 }
 
 std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
-                                                  const FrameRectangle& frame) const {
+                                                  const FrameFit& fit) const {
+  const FrameRectangle& frame = fit.adjustment.frame;
   if (auto objection = ObjectionToFrame(frame, limits_)) return objection;
   const double clarity = FrameClarity(left, frame, darkness_);
   if (clarity < options_.min_darkness) {
     return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
                                         "{:.2f}, {:.2f} are needed",
                                         clarity, options_.min_darkness)};
+  }
+  // Without an opening of its own it is one: that of a light frame.
+  if (fit.inner_support < kOpening && BrightBand(left, frame, options_.black_dn) > kLight) {
+    return Miss{"light_frame", "what surrounds it is lighter than the wall"};
   }
   if (!options_.prior.knows_grey()) return std::nullopt;
   return ObjectionOf(options_.prior, FrameGreyRatio(left, frame, darkness_));

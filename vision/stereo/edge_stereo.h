@@ -33,8 +33,8 @@ class EdgeStereoDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
   /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
-  /// "implausible_shape", "not_dark", by how far the best candidate came; "unexpected_size",
-  /// "unexpected_shape" or "unexpected_grey" with a prior.
+  /// "implausible_shape", "not_dark", "light_frame", by how far the best candidate came;
+  /// "unexpected_size", "unexpected_shape" or "unexpected_grey" with a prior.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
@@ -46,7 +46,7 @@ class EdgeStereoDetector : public Detector {
   std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                const EdgeSegments& right_segments,
                                const cv::Mat1b& right_image) const;
-  std::optional<Miss> Objection(const CameraView& left, const FrameRectangle& frame) const;
+  std::optional<Miss> Objection(const CameraView& left, const FrameFit& fit) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
 

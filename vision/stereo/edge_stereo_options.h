@@ -10,7 +10,7 @@ struct EdgeStereoOptions {
   double rectification_alpha = 1.0;  ///< As paper-stereo's.
 
   // Where and how large a window may be.
-  double nearest_m = 1.2;    ///< A 1 m window fills the image of a 4 mm lens there.
+  double nearest_m = 0.6;    ///< Where both images of a 4 mm lens see the same 0.5 m.
   double farthest_m = 15.0;  ///< Where a 1 m frame is 44 px wide.
   double min_side_m = 0.3;   ///< What a drone might fly through.
   double max_side_m = 3.0;

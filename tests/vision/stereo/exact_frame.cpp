@@ -1,16 +1,14 @@
 #include "tests/vision/stereo/exact_frame.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 namespace fenestra::testing {
 namespace {
 
 constexpr int kFine = 4;  // Parts of a pixel in each direction.
-
-using Corners = std::array<Eigen::Vector2d, 4>;
 
 // Exact coverage of a polygon by the signed areas right of its edges, summed along rows
 // (R. Levien, "font-rs", 2015).
@@ -75,17 +73,48 @@ class AreaAccumulator {
   cv::Mat1d area_;
 };
 
-cv::Mat1d Coverage(const CameraModel& camera, const Pose& X_CO, double width_m, double height_m) {
-  Corners corners;
+using Polygon = std::vector<Eigen::Vector2d>;
+
+// On the fine grid: pixel centres are whole numbers; borders of the fine grid are.
+Polygon Outline(const CameraModel& camera, const Pose& X_CO, const Eigen::Vector2d& size_m,
+                double z_m) {
+  Polygon corners;
   for (size_t i = 0; i < 4; ++i) {
-    const double x = (i == 1 || i == 2 ? 0.5 : -0.5) * width_m;
-    const double y = (i < 2 ? 0.5 : -0.5) * height_m;
-    // Pixel centres are whole numbers; borders of the fine grid are.
-    corners[i] = kFine * (camera.Project(X_CO * Eigen::Vector3d(x, y, 0.0)).value() +
-                          Eigen::Vector2d::Constant(0.5));
+    const double x = (i == 1 || i == 2 ? 0.5 : -0.5) * size_m.x();
+    const double y = (i < 2 ? 0.5 : -0.5) * size_m.y();
+    corners.push_back(kFine * (camera.Project(X_CO * Eigen::Vector3d(x, y, z_m)).value() +
+                               Eigen::Vector2d::Constant(0.5)));
   }
+  return corners;
+}
+
+// What two convex polygons, clockwise as seen, have in common (Sutherland and Hodgman).
+Polygon Common(Polygon polygon, const Polygon& window) {
+  for (size_t i = 0; i < window.size(); ++i) {
+    const Eigen::Vector2d a = window[i];
+    const Eigen::Vector2d along = window[(i + 1) % window.size()] - a;
+    const auto inside = [&](const Eigen::Vector2d& p) {
+      return along.x() * (p.y() - a.y()) - along.y() * (p.x() - a.x());
+    };
+    Polygon clipped;
+    for (size_t j = 0; j < polygon.size(); ++j) {
+      const Eigen::Vector2d& p = polygon[j];
+      const Eigen::Vector2d& q = polygon[(j + 1) % polygon.size()];
+      const double at_p = inside(p);
+      const double at_q = inside(q);
+      if (at_p >= 0.0) clipped.push_back(p);
+      if ((at_p >= 0.0) != (at_q >= 0.0)) clipped.push_back(p + at_p / (at_p - at_q) * (q - p));
+    }
+    polygon = clipped;
+  }
+  return polygon;
+}
+
+cv::Mat1d Coverage(const CameraModel& camera, const Polygon& polygon) {
   AreaAccumulator accumulator({kFine * camera.width_px(), kFine * camera.height_px()});
-  for (size_t i = 0; i < 4; ++i) accumulator.AddEdge(corners[i], corners[(i + 1) % 4]);
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    accumulator.AddEdge(polygon[i], polygon[(i + 1) % polygon.size()]);
+  }
   return accumulator.Coverage();
 }
 
@@ -93,11 +122,14 @@ cv::Mat1d Coverage(const CameraModel& camera, const Pose& X_CO, double width_m, 
 
 cv::Mat1f ExactPicture(const CameraModel& camera, const Pose& X_CL, const ExactFrame& frame) {
   const Pose X_CO = X_CL * frame.X_LO;
-  const cv::Mat1d outer = Coverage(camera, X_CO, frame.width_m, frame.height_m);
-  const cv::Mat1d inner = Coverage(camera, X_CO, frame.width_m - 2.0 * frame.border_m,
-                                   frame.height_m - 2.0 * frame.border_m);
-  cv::Mat1d fine = frame.wall_dn + outer * (frame.frame_dn - frame.wall_dn) +
-                   inner * (frame.opening_dn - frame.frame_dn);
+  const Eigen::Vector2d size_m(frame.width_m, frame.height_m);
+  const Eigen::Vector2d opening_m = size_m - Eigen::Vector2d::Constant(2.0 * frame.border_m);
+  const Polygon wall = Outline(camera, X_CO, size_m, frame.setback_m);
+  const Polygon outer = Common(Outline(camera, X_CO, size_m, 0.0), wall);
+  const Polygon inner = Common(Outline(camera, X_CO, opening_m, 0.0), wall);
+  cv::Mat1d fine = frame.wall_dn + Coverage(camera, wall) * (frame.reveal_dn - frame.wall_dn) +
+                   Coverage(camera, outer) * (frame.frame_dn - frame.reveal_dn) +
+                   Coverage(camera, inner) * (frame.opening_dn - frame.frame_dn);
   cv::GaussianBlur(fine, fine, {}, kFine * frame.blur_px);
   cv::Mat1d picture;
   cv::resize(fine, picture, {camera.width_px(), camera.height_px()}, 0.0, 0.0, cv::INTER_AREA);

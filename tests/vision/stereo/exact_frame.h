@@ -8,9 +8,10 @@
 
 namespace fenestra::testing {
 
-/// A painted frame whose pictures are exact: the area that it covers of each quarter of a pixel in
-/// either direction, blurred there, gathered by pixels. Places of edges are right to 1e-3 px, which
-/// sampling with rays would need a million of them a pixel for. Frame O as PlanarTarget's.
+/// A frame, painted or standing back in a wall, whose pictures are exact: the area that it covers
+/// of each quarter of a pixel in either direction, blurred there, gathered by pixels. Places of
+/// edges are right to 1e-3 px, which sampling with rays would need a million of them a pixel for.
+/// Frame O as PlanarTarget's.
 struct ExactFrame {
   Pose X_LO;
   double width_m = 1.0;
@@ -20,6 +21,8 @@ struct ExactFrame {
   double frame_dn = 12.0;
   double opening_dn = 165.0;
   double blur_px = 0.45;
+  double setback_m = 0.0;  ///< The wall before the frame; its opening is as large as the frame.
+  double reveal_dn = 60.0;
 };
 
 /// Grey values without noise or rounding. The camera must have no distortion and the frame must be
