@@ -108,6 +108,12 @@ TEST(EdgeStereo, MirroredWorldGivesMirroredEstimate) {
   // which of them a place on a side begins with, a small part of the noise.
   const Eigen::Vector3d expected(kBaseline_m - one.p_CO.x(), one.p_CO.y(), one.p_CO.z());
   EXPECT_LT((other.p_CO - expected).norm(), std::sqrt(one.covariance_C->trace()));
+  // The twin with a fault: mirrored, but left is still left.
+  std::swap(mirrored.left, mirrored.right);
+  const Detection faulty = Detect(rig, mirrored);
+  if (const auto* estimate = std::get_if<WindowEstimate>(&faulty)) {
+    EXPECT_GT((estimate->p_CO - expected).norm(), 10.0 * std::sqrt(one.covariance_C->trace()));
+  }
 }
 
 TEST(EdgeStereo, ScalingTheWorldScalesTheEstimate) {
@@ -127,6 +133,9 @@ TEST(EdgeStereo, ScalingTheWorldScalesTheEstimate) {
   EXPECT_LT((3.0 * one.p_CO - three.p_CO).norm(), 1e-5);
   EXPECT_LT((9.0 * *one.covariance_C - *three.covariance_C).norm(),
             1e-3 * three.covariance_C->norm());
+  // The twin with a fault: a baseline that is a thousandth too long.
+  const StereoCalibration longer = PaperRig({}, Eigen::Vector3d::Zero(), 3.003 * kBaseline_m);
+  EXPECT_GT((3.0 * one.p_CO - Found(Detect(longer, seen, big)).p_CO).norm(), 1e-3);
 }
 
 TEST(EdgeStereo, TwiceTheLightChangesNothingButTheNoise) {
@@ -142,6 +151,9 @@ TEST(EdgeStereo, TwiceTheLightChangesNothingButTheNoise) {
   const Eigen::Matrix3d covariance = *dim.covariance_C + *bright.covariance_C;
   // χ² of 3 degrees of freedom, 1e-3.
   EXPECT_LT(difference.dot(covariance.inverse() * difference), 16.27);
+  // The twin with a fault: a frame that has moved by 2 mm meanwhile.
+  const Eigen::Vector3d moved = difference + Eigen::Vector3d(0.002, 0.0, 0.0);
+  EXPECT_GT(moved.dot(covariance.inverse() * moved), 16.27);
   // Twice the contrast at the same noise: half the standard deviation.
   EXPECT_NEAR(std::sqrt(dim.covariance_C->trace() / bright.covariance_C->trace()), 2.0, 0.3);
 }
@@ -241,6 +253,7 @@ TEST(EdgeStereo, SwappedImagesAreAMiss) {
   for (const double distance_m : {2.0, 3.0, 5.0, 8.0}) {
     StereoObservation seen =
         ExactPair(rig, FrameSeenFrom({.distance_m = distance_m}), kNoise_dn, RandomStream(6));
+    Found(Detect(rig, seen));  // The twin without the fault.
     std::swap(seen.left, seen.right);
     EXPECT_TRUE(std::holds_alternative<Miss>(Detect(rig, seen))) << distance_m;
   }
