@@ -30,6 +30,8 @@ constexpr double kMostScale = 2.5;
 constexpr double kFlatSupport = 0.5;
 // A wall's face or a sill stands up to some decimetre before the frame; see also kPanes.
 constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
+// Where reliefs are not known better than that, they are left out.
+constexpr double kMostRelief_m = 0.05;
 constexpr ReliefPrior kBehind{.mean_m = -0.05, .sigma_m = 0.1};
 
 // Width of the border in the image, where it is narrowest.
@@ -64,6 +66,11 @@ void CountSupport(const PlaceCounts& places, FrameFit& fit) {
     }
   }
   if (places.inner > 0) fit.inner_support = inner / places.inner;
+}
+
+double SigmaAlongNormal(const FrameFit& fit) {
+  const Eigen::Vector3d normal = fit.adjustment.frame.R_LO.col(2);
+  return std::sqrt(normal.dot(fit.adjustment.covariance.block<3, 3>(3, 3) * normal));
 }
 
 }  // namespace
@@ -176,7 +183,8 @@ std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
 std::optional<FrameFit> FrameFitter::FitInRelief(const FrameFit& start) {
   auto fit = Rounds(start, {.size = {}, .outer_relief = kWall, .inner_relief = kPanes},
                     kReliefTolerances_px);
-  if (!fit || fit->LeastSupport() < settings_.min_side_support) {
+  if (!fit || fit->LeastSupport() < settings_.min_side_support ||
+      SigmaAlongNormal(*fit) > kMostRelief_m) {
     border_.reset();
     fit = Rounds(start, {}, kCoarseTolerances_px);
   }
