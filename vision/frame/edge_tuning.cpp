@@ -15,6 +15,7 @@ using Shared = Eigen::Matrix<double, EdgeTuning::kShared, 1>;
 using SharedMatrix = Eigen::Matrix<double, EdgeTuning::kShared, EdgeTuning::kShared>;
 
 constexpr double kLeastVariance = 1.0 / 12.0;  // Of a grey value that is rounded.
+constexpr double kLeastExcess = 1e-3;          // Pictures without noise.
 constexpr double kSmallestBlur_px = 0.25;
 constexpr double kLargestBlur_px = 1.5;
 constexpr double kLargestSlope = 0.05;
@@ -124,6 +125,7 @@ class SharedEquations {
 Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
              const std::vector<StepFit>& fits, double excess, const SideRequest& request,
              const EdgeTuning& tuning) {
+  excess = std::max(excess, kLeastExcess);
   SharedEquations equations(model, tuning.shared);
   SideVariances variances;
   MeanRise rise;

@@ -23,16 +23,21 @@ constexpr double kLeastReach_px = 1.6;
 constexpr double kLeastInnerSupport = 0.5;
 // With fewer in a first round it is not worth while to go on.
 constexpr double kHopelessSupport = 0.3;
-// Residuals over their standard deviations, where all sides are what they are taken for. Between
-// two planes, half a side's edges on either, they would be dozens.
+// Residuals where all sides are what they are taken for: so many of their standard deviations, or
+// what rounding makes of edges along rows. Between two planes, half a side's edges on either, both
+// are exceeded.
 constexpr double kMostScale = 2.5;
+constexpr double kMostOff_px = 0.03;
+// A relief of the inner sides of so many standard deviations is one.
+constexpr double kSignificant = 3.0;
 // Of the places along each outer side.
 constexpr double kFlatSupport = 0.5;
 // A wall's face or a sill stands up to some decimetre before the frame; see also kPanes.
 constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
 // Where reliefs are not known better than that, they are left out.
 constexpr double kMostRelief_m = 0.05;
-constexpr ReliefPrior kBehind{.mean_m = -0.05, .sigma_m = 0.1};
+const FrameKnowledge kFree{
+    .size = {}, .outer_relief = {}, .inner_relief = ReliefPrior{.mean_m = -0.05, .sigma_m = 0.1}};
 
 // Width of the border in the image, where it is narrowest.
 double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
@@ -66,6 +71,17 @@ void CountSupport(const PlaceCounts& places, FrameFit& fit) {
     }
   }
   if (places.inner > 0) fit.inner_support = inner / places.inner;
+}
+
+bool IsConsistent(const FrameFit& fit) {
+  double sum_px = 0.0;
+  double count = 0.0;
+  for (const std::vector<EdgePoint>& view : fit.points) {
+    for (const EdgePoint& point : view) sum_px += point.sigma_px;
+    count += static_cast<double>(view.size());
+  }
+  const double scale = fit.adjustment.scale;
+  return scale < kMostScale || scale * sum_px / count < kMostOff_px;
 }
 
 double SigmaAlongNormal(const FrameFit& fit) {
@@ -156,22 +172,27 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
   }
   auto fit = Rounds(start, {}, kPlaneTolerances_px);
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
-  if (border_ && (fit->inner_support < kLeastInnerSupport || fit->adjustment.scale > kMostScale)) {
-    return std::nullopt;
+  if (border_) {
+    if (fit->inner_support < kLeastInnerSupport || !IsConsistent(*fit)) return std::nullopt;
+    // Nor may they be better explained by another one.
+    const auto freed = Round(fit->adjustment.frame, kFree, kPlaneTolerances_px.back());
+    if (freed && std::abs(freed->adjustment.frame.inner_relief_m) >
+                     kSignificant * std::sqrt(freed->adjustment.covariance(13, 13))) {
+      return std::nullopt;
+    }
   }
   fit->knows_depth = border_.has_value();
   return fit;
 }
 
 std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
-  const FrameKnowledge knowledge{.size = {}, .outer_relief = {}, .inner_relief = kBehind};
-  const auto first = Round(start.adjustment.frame, knowledge, kPlaneTolerances_px[0]);
+  const auto first = Round(start.adjustment.frame, kFree, kPlaneTolerances_px[0]);
   std::optional<FrameFit> fit;
   if (first && first->inner_support >= kHopelessSupport) {
-    fit = Rounds(start, knowledge, kPlaneTolerances_px);
+    fit = Rounds(start, kFree, kPlaneTolerances_px);
   }
   if (!fit || fit->LeastSupport() < kFlatSupport || fit->inner_support < kLeastInnerSupport ||
-      fit->adjustment.scale > kMostScale) {
+      !IsConsistent(*fit)) {
     border_.reset();
     fit = Rounds(start, {}, kPlaneTolerances_px);
   }

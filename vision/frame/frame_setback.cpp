@@ -68,14 +68,18 @@ Reveal LookForReveal(const CameraView& view, const FrameRectangle& frame, Side s
   const double most_m =
       std::min(look.Inset(kDeepest_m), 0.3 * std::min(frame.width_m, frame.height_m));
   double darkest = 0.0;
+  double brightest = 0.0;
   double where_m = 0.0;
   for (double t = 2.0 * kClear_px * look.pixel_m; t < most_m; t += step_m) {
     const auto before = LogGrey(view, frame, side, t - kClear_px * look.pixel_m, black_dn);
     const auto after = LogGrey(view, frame, side, t + kClear_px * look.pixel_m, black_dn);
-    if (!before || !after || *before - *after <= darkest) continue;
+    if (!before || !after) continue;
+    brightest = std::max(brightest, *after - *before);
+    if (*before - *after <= darkest) continue;
     darkest = *before - *after;
     where_m = t;
   }
+  if (brightest > kDarker) return reveal;  // A shadow, or an opening: neither for nor against.
   if (darkest > kDarker) {
     const double depth_m = look.Depth(where_m);
     const double by_inset =
