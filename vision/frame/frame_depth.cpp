@@ -13,7 +13,11 @@ constexpr double kRebate_m = 0.085;
 // Of inner sides that tell the frame's depth.
 constexpr double kKnownRelief_m = 0.02;
 // How far frames stand back where nothing tells: windows are set up to 10 cm deep.
-constexpr double kUnknownSetback_m = 0.05;
+constexpr double kUnknownSetback_m = 0.07;
+// Before the inner sides are seen, and what they are worth: the frame's front edge, its rear edge
+// or what shows in the pane may be what is seen.
+constexpr Setback kUsual{.mean_m = 0.06, .sigma_m = 0.05};
+constexpr double kInnerSides_m = 0.05;
 
 void MoveBack(FrameFit& fit, const Setback& setback) {
   FrameAdjustment& adjustment = fit.adjustment;
@@ -23,6 +27,12 @@ void MoveBack(FrameFit& fit, const Setback& setback) {
   adjustment.frame.inner_relief_m += setback.mean_m;
   adjustment.covariance.block<3, 3>(3, 3) +=
       setback.sigma_m * setback.sigma_m * normal * normal.transpose();
+}
+
+Setback Both(const Setback& a, const Setback& b) {
+  const double at_a = 1.0 / (a.sigma_m * a.sigma_m);
+  const double at_b = 1.0 / (b.sigma_m * b.sigma_m);
+  return {(at_a * a.mean_m + at_b * b.mean_m) / (at_a + at_b), 1.0 / std::sqrt(at_a + at_b)};
 }
 
 // Some sides may be the wall's and some the frame's own: their parallax is not told apart.
@@ -46,10 +56,12 @@ void StandBack(std::span<const CameraView> views, double black_dn, FrameFit& fit
   fit.knows_depth = sigma_m > 0.0 && sigma_m < kKnownRelief_m;
   if (inner_m + 2.0 * sigma_m > -kRebate_m) return;  // A far frame's thickness is but guessed.
   const auto reveal = FindSetback(views, fit.adjustment.frame, black_dn);
-  const Setback inner{kPanes.mean_m - inner_m, std::hypot(sigma_m, kPanes.sigma_m)};
+  const Setback inner = Both(kUsual, {kPanes.mean_m - inner_m, std::hypot(sigma_m, kInnerSides_m)});
   const bool agree = reveal && reveal->mean_m > 0.0 &&
                      std::abs(reveal->mean_m - inner.mean_m) < 2.0 * inner.sigma_m;
-  MoveBack(fit, agree ? *reveal : inner);
+  const Setback& setback = agree ? *reveal : inner;
+  MoveBack(fit, setback);
+  AddParallax(fit, setback.mean_m);
   fit.knows_depth = true;
 }
 

@@ -15,7 +15,7 @@ inline constexpr ReliefPrior kPanes{.mean_m = -0.03, .sigma_m = 0.03};
 void StandBack(std::span<const CameraView> views, double black_dn, FrameFit& fit);
 
 /// For a frame whose inner sides do not tell its depth: moves it back as its reveal tells
-/// (frame_setback.h). Where nothing tells, its covariance allows for 5 cm along the normal, and
+/// (frame_setback.h). Where nothing tells, its covariance allows for 7 cm along the normal, and
 /// across it for the parallax of sides that are partly the wall's and partly the frame's.
 void SettleDepth(std::span<const CameraView> views, double black_dn, FrameFit& fit);
 

@@ -133,7 +133,9 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
       if (!border_) continue;
       request.border = Border::kInner;
       request.brighter = border_->brighter[s];
-      places.inner += Measure(view, frame, request, fit.points[view]);
+      SideRequest inner = request;
+      inner.min_contrast_dn = settings_.border.min_contrast_dn;
+      places.inner += Measure(view, frame, inner, fit.points[view]);
     }
   }
   for (std::vector<EdgePoint>& points : fit.points) {

@@ -64,7 +64,7 @@ class FrameFitter {
   ///   4. all in one plane, but only to 0.7 px.
   ///
   /// Where the inner sides do not tell how deep the frame stands, its reveal may (frame_setback.h).
-  /// Where nothing does, the covariance allows for 5 cm. With planes that were measured otherwise
+  /// Where nothing does, the covariance allows for 7 cm. With planes that were measured otherwise
   /// all that is left alone.
   ///
   /// Miss: "no_edges", "unsupported_side".

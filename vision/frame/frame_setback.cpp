@@ -92,38 +92,52 @@ Reveal LookForReveal(const CameraView& view, const FrameRectangle& frame, Side s
   return reveal;
 }
 
+struct Sighting {
+  Side side;
+  Setback setback;
+};
+
+// Those around the depth that most of them agree on.
+std::vector<Sighting> Agreeing(const std::vector<Sighting>& seen) {
+  std::vector<Sighting> best;
+  for (const auto& [side, centre] : seen) {
+    std::vector<Sighting> agreeing;
+    for (const Sighting& other : seen) {
+      const double tolerance_m = 2.0 * std::hypot(centre.sigma_m, other.setback.sigma_m);
+      if (std::abs(other.setback.mean_m - centre.mean_m) <= tolerance_m) agreeing.push_back(other);
+    }
+    if (agreeing.size() > best.size()) best = agreeing;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<Setback> FindSetback(std::span<const CameraView> views, const FrameRectangle& frame,
                                    double black_dn) {
-  std::vector<Setback> seen;
+  std::vector<Sighting> seen;
   int without = 0;
   for (const CameraView& view : views) {
     for (const Side side : kAllSides) {
       const Reveal reveal = LookForReveal(view, frame, side, black_dn);
-      if (reveal.sight == Sight::kReveal) seen.push_back(reveal.setback);
+      if (reveal.sight == Sight::kReveal) seen.push_back({side, reveal.setback});
       if (reveal.sight == Sight::kNoReveal) ++without;
     }
   }
   if (seen.empty()) return without > 0 ? std::optional<Setback>({0.0, 0.0}) : std::nullopt;
-  // The depth that most of them agree on.
-  std::vector<Setback> best;
-  for (const Setback& centre : seen) {
-    std::vector<Setback> agreeing;
-    for (const Setback& other : seen) {
-      const double tolerance_m = 2.0 * std::hypot(centre.sigma_m, other.sigma_m);
-      if (std::abs(other.mean_m - centre.mean_m) <= tolerance_m) agreeing.push_back(other);
-    }
-    if (agreeing.size() > best.size()) best = agreeing;
-  }
-  if (best.size() < 2 || 3 * best.size() < 2 * (seen.size() + static_cast<size_t>(without))) {
+  const std::vector<Sighting> best = Agreeing(seen);
+  // One side alone may show the opening's edge instead.
+  const bool sides_differ = std::any_of(best.begin(), best.end(), [&](const Sighting& other) {
+    return other.side != best.front().side;
+  });
+  if (!sides_differ || 3 * best.size() < 2 * (seen.size() + static_cast<size_t>(without))) {
     return std::nullopt;
   }
   double sum = 0.0;
   double weight = 0.0;
-  for (const Setback& s : best) {
-    sum += s.mean_m / (s.sigma_m * s.sigma_m);
-    weight += 1.0 / (s.sigma_m * s.sigma_m);
+  for (const auto& [side, setback] : best) {
+    sum += setback.mean_m / (setback.sigma_m * setback.sigma_m);
+    weight += 1.0 / (setback.sigma_m * setback.sigma_m);
   }
   return Setback{sum / weight, std::max(kLeastSigma_m, 1.0 / std::sqrt(weight))};
 }

@@ -17,6 +17,9 @@ constexpr double kReach_px = 4.0;
 constexpr int kMostFinished = 4;
 // Candidates that begin with less than this share of the best one's score are not measured.
 constexpr double kHopeless = 0.7;
+// Of the outer sides' contrast. Between frame and opening there is little, in front of a dark room;
+// but all of their length counts.
+constexpr double kInnerContrast = 0.4;
 constexpr double kOpening = 0.5;  // Of the places along the inner sides.
 constexpr double kLight = 0.9;    // See BrightBand.
 
@@ -55,7 +58,7 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                .min_side_support = options.min_side_support,
                .border = {.smallest_m = options.min_border_m,
                           .largest_share = options.max_border_share,
-                          .min_contrast_dn = options.min_contrast_dn},
+                          .min_contrast_dn = kInnerContrast * options.min_contrast_dn},
                .size = SizePriorOf(options.prior),
                .planes = {},
                .black_dn = options.black_dn} {}
