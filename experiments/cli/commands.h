@@ -28,6 +28,7 @@ void AddDetectCommand(CLI::App& program, int& exit_code);
 void AddBoundCommand(CLI::App& program, int& exit_code);
 void AddCalibrateCommand(CLI::App& program, int& exit_code);
 void AddEmvaCommand(CLI::App& program, int& exit_code);
+void AddCheckCommand(CLI::App& program, int& exit_code);
 void AddDepthCommand(CLI::App& program, int& exit_code);
 void AddRatiosCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);

@@ -84,6 +84,7 @@ int Main(int argc, char** argv) {
       "--version", [] { return fmt::format("fenestra {} ({})", Version(), LibraryVersions()); });
   int exit_code = kDone;
   AddRunCommand(program, exit_code);
+  AddCheckCommand(program, exit_code);
   AddRenderCommand(program, exit_code);
   AddExportCommand(program, exit_code);
   AddReplayCommand(program, exit_code);

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "core/atomic_file.h"
+#include "core/input_error.h"
+#include "experiments/bounds/check_report.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/progress.h"
+#include "experiments/run_study.h"
+#include "experiments/store.h"
+#include "experiments/study_catalogue.h"
+#include "experiments/study_reader.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckArguments {
+  fs::path bounds;
+  fs::path results;
+  fs::path baseline;
+  fs::path out;
+  std::optional<int> trials;
+  int jobs = 0;  ///< 0: as many as there are processors.
+  fs::path junit;
+  fs::path markdown;
+  bool strict = false;
+};
+
+ResultStore OpenResults(const fs::path& path) {
+  return ResultStore::OpenReadOnly(fs::is_directory(path) ? path / "results.sqlite" : path);
+}
+
+Study StudyOf(const ResultStore& store, const fs::path& path) {
+  return ReadStudy(
+      YamlReader::FromText(store.Metadata().at(kMetaStudy), path.string() + " (study)"),
+      Detectors());
+}
+
+// A study that a file of bounds names is a built-in one or stands beside it.
+fs::path StudyFile(const fs::path& bounds, const std::string& study) {
+  const fs::path beside = bounds.parent_path() / study;
+  return fs::is_regular_file(beside) ? beside : FindStudy(study);
+}
+
+// Runs the study of the bounds; returns the folder of its results.
+fs::path Run(const CheckArguments& arguments, const BoundFile& file) {
+  if (file.study.empty()) {
+    throw InputError(arguments.bounds, "names no study to run; give --results DIR");
+  }
+  YamlReader reader = YamlReader::FromFile(StudyFile(arguments.bounds, file.study));
+  StudyRun run{.study = ReadStudy(reader, Detectors()),
+               .study_text = reader.text(),
+               .out = arguments.out,
+               .jobs = arguments.jobs};
+  if (arguments.trials) {
+    for (StudyPart& part : run.study.parts) part.repetitions = *arguments.trials;
+  }
+  if (run.out.empty()) run.out = fs::path("results") / run.study.name;
+  if (run.jobs == 0) run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  ProgressBar progress(static_cast<int>(CountTrials(run.study)));
+  run.on_trial = [&progress] { progress.Advance(); };
+  RunStudy(run);
+  return run.out;
+}
+
+int Check(const CheckArguments& arguments) {
+  const BoundFile file = ReadBoundFile(YamlReader::FromFile(arguments.bounds));
+  std::vector<TrialRecord> baseline;
+  if (!arguments.baseline.empty()) baseline = OpenResults(arguments.baseline).Rows();
+  const fs::path results = arguments.results.empty() ? Run(arguments, file) : arguments.results;
+  const ResultStore store = OpenResults(results);
+  const CheckResult result =
+      CheckBounds(arguments.bounds.string(), file, StudyOf(store, results), store.Rows(), baseline);
+  fmt::print("{}", CheckForTerminal(result));
+  if (!arguments.junit.empty()) {
+    WriteFileAtomically(arguments.junit,
+                        CheckJunitXml(result, arguments.bounds.stem().string(), arguments.strict));
+  }
+  if (!arguments.markdown.empty()) {
+    WriteFileAtomically(arguments.markdown, CheckMarkdown(result));
+  }
+  const bool fails = result.Count(Verdict::kViolated) > 0 ||
+                     (arguments.strict && result.Count(Verdict::kUndecided) > 0);
+  return fails ? kBoundViolated : kDone;
+}
+
+}  // namespace
+
+void AddCheckCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command =
+      program.add_subcommand("check", "Holds results against bounds, as a CI gate does");
+  command->footer(
+      "Examples:\n"
+      "  fenestra check bounds.yaml                            runs the study that it names\n"
+      "  fenestra check bounds.yaml --results results/paper\n"
+      "  fenestra check bounds.yaml --results new --baseline old --markdown comment.md\n"
+      "Exit codes: 0 no bound is violated, 1 one is (with --strict: or is undecided).");
+  const auto arguments = std::make_shared<CheckArguments>();
+  command->add_option("BOUNDS", arguments->bounds, "File of bounds (YAML)")->required();
+  CLI::Option* results = command->add_option("--results", arguments->results,
+                                             "Results to check; else the study is run");
+  command->add_option("--baseline", arguments->baseline,
+                      "Results of the same study to compare with, trial by trial");
+  command->add_option("--out", arguments->out, "Results folder of the run")->excludes(results);
+  command->add_option("--trials", arguments->trials, "Trials of each cell, instead of the study's")
+      ->check(CLI::Range(1, 1000000))
+      ->excludes(results);
+  command->add_option("--jobs", arguments->jobs, "Trials at the same time; default: all processors")
+      ->check(CLI::Range(1, 1024))
+      ->excludes(results);
+  command->add_option("--junit", arguments->junit, "Write JUnit XML to this file");
+  command->add_option("--markdown", arguments->markdown,
+                      "Write a comment for a pull request to this file");
+  command->add_flag("--strict", arguments->strict, "Undecided bounds fail, too");
+  command->callback([arguments, &exit_code] { exit_code = Check(*arguments); });
+}
+
+}  // namespace fenestra::cli
