@@ -140,7 +140,7 @@ std::optional<DepthFrame> CellBench::DepthOf(const SimulatedTrial& simulated) co
   const TrialSettings& settings = simulated.trial.settings;
   const auto world = WorldOf(settings);
   return sensor->ObserveDepth(world->caster, settings.lighting, RigPoseOf(settings, world->scene),
-                              simulated.trial.stream.Child("shot"));
+                              simulated.trial.streams.shot);
 }
 
 TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {

@@ -9,7 +9,9 @@
 #include "core/input_error.h"
 #include "experiments/bounds/check_report.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/interrupt.h"
 #include "experiments/cli/progress.h"
+#include "experiments/result_files.h"
 #include "experiments/run_study.h"
 #include "experiments/store.h"
 #include "experiments/study_catalogue.h"
@@ -34,13 +36,7 @@ struct CheckArguments {
 };
 
 ResultStore OpenResults(const fs::path& path) {
-  return ResultStore::OpenReadOnly(fs::is_directory(path) ? path / "results.sqlite" : path);
-}
-
-Study StudyOf(const ResultStore& store, const fs::path& path) {
-  return ReadStudy(
-      YamlReader::FromText(store.Metadata().at(kMetaStudy), path.string() + " (study)"),
-      Detectors());
+  return ResultStore::OpenReadOnly(StoreFile(path));
 }
 
 // A study that a file of bounds names is a built-in one or stands beside it.
@@ -64,9 +60,14 @@ fs::path Run(const CheckArguments& arguments, const BoundFile& file) {
   }
   if (run.out.empty()) run.out = fs::path("results") / run.study.name;
   if (run.jobs == 0) run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  ProgressBar progress(static_cast<int>(CountTrials(run.study)));
-  run.on_trial = [&progress] { progress.Advance(); };
-  RunStudy(run);
+  const InterruptWatch watch;
+  Progress progress(Progress::ForStandardError());
+  run.on_start = [&progress](const RunStart& start) { progress.Start(start); };
+  run.on_stored = [&progress](std::span<const TrialRecord> rows) { progress.Add(rows); };
+  run.stop = [&watch] { return watch.requested(); };
+  if (!RunStudy(run).complete()) {
+    throw std::runtime_error("interrupted; the same command goes on from there");
+  }
   return run.out;
 }
 

@@ -36,7 +36,7 @@ class MockBench final : public TrialBench {
   Attempt Try(size_t detector, const SimulatedTrial& simulated,
               bool /*keep_artifacts*/) const override {
     const std::string& label = detectors_[detector].label;
-    const RandomStream stream = simulated.trial.stream.Child("mock:" + label);
+    const RandomStream stream = simulated.trial.streams.shot.Child("mock:" + label);
     const Eigen::Vector3d error_C(stream.Normal(0), stream.Normal(1), stream.Normal(2));
     TrialRecord row =
         RowWithError(cell_.index, simulated.trial.index, Outcome::kHit, 0.01 * error_C, label);
@@ -47,6 +47,10 @@ class MockBench final : public TrialBench {
     row.score.estimate->covariance_C = Eigen::Matrix3d::Constant(stream.Normal(3));
     row.stages = {{"rectify", 0.01}, {"match", 0.02}, {"edges", 0.003}, {"centroid", 1e-5}};
     return {std::move(row), StageLog(SteadyClock(), false)};
+  }
+
+  std::optional<DepthFrame> DepthOf(const SimulatedTrial& /*simulated*/) const override {
+    return std::nullopt;
   }
 
   TruthImages TruthOf(const SimulatedTrial& /*simulated*/) const override {

@@ -30,7 +30,8 @@ TEST(PriorTextTest, AStudyNamesDetectorAndPart) {
                          .sensors = {SensorKind::kStereo},
                          .detectors = {DefaultChoice(*info)},
                          .factors = {},
-                         .repetitions = 1});
+                         .repetitions = 1,
+                         .design = {}});
   using Entry = std::pair<std::string, std::string>;
   EXPECT_EQ(PriorEntries(study), std::vector<Entry>({{"Prior", "none"}}));
   study.parts[0].detectors[0].options["expected_shape"] = std::string("rectangle");

@@ -45,6 +45,9 @@ std::shared_ptr<const TrialBench> MakeSlowBench(const Study& study, const Cell& 
     Attempt Try(size_t detector, const SimulatedTrial& s, bool keep) const override {
       return quick_.Try(detector, s, keep);
     }
+    std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const override {
+      return quick_.DepthOf(simulated);
+    }
     TruthImages TruthOf(const SimulatedTrial& s) const override { return quick_.TruthOf(s); }
 
    private:

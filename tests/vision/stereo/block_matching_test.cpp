@@ -95,9 +95,11 @@ TEST(GuidedMatching, BringsBackTheRightSideOfAFarFrame) {
                                           .gap_width_px = 5,
                                           .min_height_px = 20,
                                           .disparity_step_px = 1.0});
-  const cv::Mat1f twice =
+  const auto again =
       MatchAgainNearPatches(pair, rectification.left_seen(), rectification.right_seen(), settings,
                             once, patches, 0.3 / 0.35);
+  ASSERT_TRUE(again);
+  const cv::Mat1f& twice = *again;
   // The right border's middle: 0.45 m right of the centroid, 0.6 m of its height.
   const double scale = rectification.camera().f_px / 8.0;
   const int u = static_cast<int>(375.5 + (0.175 + 0.45) * scale);
