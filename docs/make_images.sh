@@ -33,3 +33,12 @@ for shot in stereo/paper-stereo/left rgbd/paper-rgbd/color rgbd/paper-rgbd/depth
 done
 montage "${shots[@]}" -background white -tile 4x3 -geometry 360x270+4+4 -quality 88 \
   docs/images/gallery.jpg
+
+# The paper's two pipelines, stage by stage, for docs/detectors.md.
+small() { convert "$1" -resize 360x ${3:+-colors "$3"} -quality 80 "docs/images/$2"; }
+small "${stereo[0]}/1_rectified.png" paper_stereo_rectified.jpg
+small "${stereo[0]}/2_depth_image.png" paper_stereo_depth.jpg
+small "${stereo[0]}/3_closed_contour.png" paper_stereo_closed.jpg
+small "${stereo[0]}/4_edges.png" paper_stereo_edges.png 8
+small "${rgbd[1]}/2_segmentation.png" paper_rgbd_segmentation.png 32
+small "${rgbd[1]}/3_range_image.png" paper_rgbd_key_points.png 64

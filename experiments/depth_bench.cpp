@@ -29,7 +29,7 @@ Scene Wall(double reflectance_830nm, const DepthBench::Plate& plate) {
   return scene;
 }
 
-Lighting UniformSky(double lux) {
+Lighting UnderSky(double lux) {
   Lighting lighting;
   lighting.sky.illuminance_lx = lux;
   return lighting;
@@ -40,7 +40,7 @@ double WallPerSky(const Scene& wall) {
   const RayCaster caster(wall);
   const RayGrid rays(CameraModel::Pinhole(16, 16, 16.0));
   const AovImages seen =
-      caster.CastAovs(rays, RigPose({.distance_m = 1.0}, Pose()), UniformSky(1000.0), {});
+      caster.CastAovs(rays, RigPose({.distance_m = 1.0}, Pose()), UnderSky(1000.0), {});
   return static_cast<double>(seen.irradiance_lx(8, 8)) / 1000.0;
 }
 
@@ -55,7 +55,7 @@ DepthBench::DepthBench(const StructuredLightOptions& options, double reflectance
 
 DepthImage DepthBench::See(const Viewpoint& viewpoint, double wall_lx, uint64_t frame) const {
   return sensor_
-      .ObserveDepth(caster_, UniformSky(wall_lx / wall_per_sky_), RigPose(viewpoint, Pose()),
+      .ObserveDepth(caster_, UnderSky(wall_lx / wall_per_sky_), RigPose(viewpoint, Pose()),
                     stream_.Child("view", frame))
       .depth;
 }
@@ -66,7 +66,7 @@ double DepthBench::TemporalNoise(const Viewpoint& viewpoint) const {
   StructuredLightOptions averaging = sensor_.options();
   averaging.averaged_frames = kFrames;
   const DepthImage mean = StructuredLightSensor(averaging)
-                              .ObserveDepth(caster_, UniformSky(kIndoors_lx / wall_per_sky_),
+                              .ObserveDepth(caster_, UnderSky(kIndoors_lx / wall_per_sky_),
                                             RigPose(viewpoint, Pose()), stream_.Child("view", 0))
                               .depth;
   const DepthImage one = See(viewpoint);

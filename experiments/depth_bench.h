@@ -28,7 +28,8 @@ class DepthBench {
   /// RMS of a pixel's depth over frames around its mean, over pixels that always have a return [m].
   double TemporalNoise(const Viewpoint& viewpoint) const;
 
-  static constexpr double kIndoors_lx = 300.0;
+  /// Of a sky of 300 lx on level ground a wall gets six tenths.
+  static constexpr double kIndoors_lx = 180.0;
   static constexpr double kWhite = 0.8;
 
  private:

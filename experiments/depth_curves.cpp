@@ -167,14 +167,14 @@ DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const Rand
   curves.lateral = MeasureLateral(options, stream);
   curves.steps = MeasureSteps(options, stream);
   for (const double z_m : {1.0, 2.0, 3.0}) {
-    for (const double lux : {300.0, 3e3, 6e3, 8e3, 9e3, 1e4, 1.1e4, 1.2e4, 1.4e4, 3e4}) {
+    for (const double lux : {60.0, 600.0, 3e3, 6e3, 7.2e3, 8.4e3, 9.6e3, 1.2e4, 3e4}) {
       curves.by_ambient.push_back(
           {.wall_lx = lux, .z_m = z_m, .valid = ValidShare(white.See({.distance_m = z_m}, lux))});
     }
   }
   for (const double reflectance : {0.05, 0.10, 0.20, 0.40}) {
     const DepthBench painted(options, reflectance, {}, stream);
-    for (const double z_m : {0.9, 1.1, 1.2, 1.3, 1.4, 1.5, 1.7, 1.9, 2.3, 2.7, 3.1, 3.5, 3.9}) {
+    for (const double z_m : {0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.3, 2.7, 3.1, 3.5}) {
       curves.by_paint.push_back({.reflectance_830nm = reflectance,
                                  .z_m = z_m,
                                  .valid = ValidShare(painted.See({.distance_m = z_m}))});

@@ -86,7 +86,7 @@ void DrawLateral(cv::Mat3b& canvas, const Models& models) {
 void DrawAmbient(cv::Mat3b& canvas, const Models& models) {
   Plot plot(canvas, {.area = AreaOf(0, 1),
                      .title = "Daylight on a white wall at 3 m",
-                     .x = {"on the wall [lx]", 200.0, 4e4, true},
+                     .x = {"on the wall [lx]", 50.0, 4e4, true},
                      .y = {"valid pixels [%]", 0.0, 130.0}});
   plot.VerticalMark(PredictedAmbientLimit({}, 0.8, 3.0).lux, "predicted");
   models.Draw(plot, [](const DepthCurves& c) {

@@ -24,7 +24,8 @@ constexpr char kLegend[] =
     "in\n"
     "depth (z) and in space (3D). told: with the calibration that stereo detectors are told, "
     "whose\n"
-    "error is unknown; for RGB-D without knowing how far the frame stands behind the wall's face.\n"
+    "error is unknown; for RGB-D with a wall whose face stands before the frame by 10 cm more or "
+    "less.\n"
     "geom: with the true calibration; for RGB-D that distance is known. size: as told, and the\n"
     "frame's size is known. both: geom and the size. —: no bound. See docs/theory.md.\n";
 

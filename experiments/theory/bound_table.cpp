@@ -10,9 +10,10 @@
 namespace fenestra {
 namespace {
 
-// As good as exact, and as nothing, but finite.
+// As good as exact, but finite.
 constexpr double kKnownSize_m = 1e-6;
-constexpr double kUnknownWall_m = 1e3;
+// A window may be flush with its wall or deep in its reveal.
+constexpr double kUnknownWall_m = 0.1;
 
 Knowledge KnowledgeFor(Known known, const TrialInformation& information) {
   Knowledge knowledge;

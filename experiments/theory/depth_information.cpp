@@ -12,6 +12,8 @@ namespace fenestra {
 namespace {
 
 constexpr int kStride = 4;
+// Standard deviation of the pattern over a dot's peak.
+constexpr double kContrast = 1.0 / 3.0;
 
 CameraModel InfraredCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
@@ -108,6 +110,16 @@ double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
          steps_px2 / options_.averaged_frames;
 }
 
+bool DepthTheory::StandsOut(const InfraredLight& light) const {
+  const InfraredOptions& infrared = options_.infrared;
+  const double rho = options_.matching.least_correlation;
+  const double variance_dn2 =
+      infrared.dark_noise_dn * infrared.dark_noise_dn +
+      infrared.shot_noise_dn * (light.ambient_dn + kContrast * light.dot_dn);
+  // A window that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast.
+  return kContrast * light.dot_dn * std::sqrt(1.0 / (rho * rho) - 1.0) >= std::sqrt(variance_dn2);
+}
+
 DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
                                      const DepthImage& observed, const RayCaster& caster,
                                      const Lighting& lighting, const Pose& X_WB) const {
@@ -135,6 +147,8 @@ DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
       if (!face || !Returns(observed, image_camera_, p_CQ)) continue;
       const InfraredLight light = InfraredLightAt(options_.infrared, aovs, {u, v}, r, p_DP);
       if (light.dot_dn <= 0.0) continue;
+      // Beside bright walls, dark frames return what is the wall's.
+      if (!face->is_wall && !StandsOut(light)) continue;
       const Eigen::Matrix<double, kDepthUnknowns, 1> gradient =
           focal_times_baseline_ *
           DisparityGradient(

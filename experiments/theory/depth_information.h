@@ -47,6 +47,9 @@ class DepthTheory {
   double NoiseDensity(const InfraredLight& light, double z_m) const;
 
  private:
+  /// Whether dots of this light are matched by themselves.
+  bool StandsOut(const InfraredLight& light) const;
+
   StructuredLightOptions options_;
   CameraModel image_camera_;  ///< Of the depth image.
   RayGrid rays_;              ///< Of the infra-red camera, coarser.

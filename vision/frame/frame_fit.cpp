@@ -199,7 +199,8 @@ std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
     fit = Rounds(start, {}, kPlaneTolerances_px);
   }
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
-  StandBack(views_, settings_.black_dn, *fit);
+  // Where planes were measured, they and what is known of their offset say where the front is.
+  if (settings_.planes.empty()) StandBack(views_, settings_.black_dn, *fit);
   return fit;
 }
 

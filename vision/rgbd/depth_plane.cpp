@@ -240,6 +240,12 @@ class PlaneFitter {
 
 }  // namespace
 
+double DepthPlane::RelativeSigmaAt(const Vector3d& p_DQ) const {
+  const Vector3d ray_D = p_DQ / p_DQ.z();
+  const Eigen::LDLT<Matrix3d> decomposition(information);
+  return std::sqrt(ray_D.dot(decomposition.solve(ray_D))) / std::abs(m.dot(ray_D));
+}
+
 double DepthPlane::Distance(const DepthPoint& point) const {
   // n = -m/|m| points towards the camera, as m·p > 0 in front of it.
   return (1.0 - m.dot(point.ray_D) / point.inverse_depth) / m.norm();

@@ -29,6 +29,10 @@ struct DepthPlane {
   std::vector<bool> is_inlier;  ///< For each point.
   int inliers;
 
+  /// Standard deviation of the plane's depth where a point's ray meets it, as a share of that
+  /// depth.
+  double RelativeSigmaAt(const Eigen::Vector3d& p_DQ) const;
+
   /// Distance of a depth point from the plane, positive towards the camera [m].
   double Distance(const DepthPoint& point) const;
 };

@@ -11,6 +11,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kRing = 1.0 / 3.0;
+constexpr double kKnown = 0.03;
 
 // Distance outside of the farthest side, positive outside.
 double DistanceOutside(const Quadrilateral& q, const std::array<Vector2d, 4>& outward,
@@ -74,6 +75,11 @@ std::optional<std::array<Vector3d, 4>> CornersOnPlane(const Quadrilateral& corne
     if (!(p_DV[i].z() > 0.0)) return std::nullopt;
   }
   return p_DV;
+}
+
+bool IsKnownAt(const DepthPlane& plane, const std::array<Vector3d, 4>& p_DV) {
+  return std::all_of(p_DV.begin(), p_DV.end(),
+                     [&](const Vector3d& p_DQ) { return plane.RelativeSigmaAt(p_DQ) < kKnown; });
 }
 
 FrameDepth DepthOf(const std::vector<DepthPoint>& points, const FrameRectangle& frame,

@@ -25,6 +25,10 @@ std::optional<std::array<Eigen::Vector3d, 4>> CornersOnPlane(const Quadrilateral
                                                              const Eigen::Vector3d& m,
                                                              double setback_m);
 
+/// Whether a plane's depth is known to 3 % at all of these points: what stands beside a window, a
+/// pipe for example, spans no plane.
+bool IsKnownAt(const DepthPlane& plane, const std::array<Eigen::Vector3d, 4>& p_DV);
+
 /// Depth points by where their rays meet a frame's front.
 struct FrameDepth {
   std::vector<DepthPoint> wall;    ///< Around the frame.

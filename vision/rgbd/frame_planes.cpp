@@ -22,6 +22,7 @@ constexpr double kOtherwise_m = 0.015;
 constexpr double kBehind_m = 0.15;
 constexpr double kBehindSigmas = 6.0;
 constexpr int kLeastBehind = 15;
+constexpr double kLeastOpen = 0.3;  // Of the pixels between the edges.
 // Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
 constexpr double kLeastReturns = 0.6;
 constexpr double kInlier = 3.5;
@@ -83,14 +84,15 @@ bool AreInPlane(const std::vector<DepthPoint>& points, const DepthPlane& wall,
   return std::abs(offset->setback_m) < kInlier * std::hypot(offset->sigma_m, of_wall_m);
 }
 
-bool IsOpen(const std::vector<DepthPoint>& front, const DepthPlane& wall, double setback_m) {
+bool IsOpen(const FrameDepth& depth, const DepthPlane& wall, double setback_m) {
   int behind = 0;
-  for (const DepthPoint& point : front) {
+  for (const DepthPoint& point : depth.border) {
     const double z_m = 1.0 / point.inverse_depth;
     const double limit_m = std::max(kBehind_m, kBehindSigmas * wall.sigma * z_m * z_m);
     if (-wall.Distance(point) - setback_m > limit_m) ++behind;
   }
-  return behind >= kLeastBehind && 2 * behind > static_cast<int>(front.size());
+  return behind >= kLeastBehind && 2 * behind > static_cast<int>(depth.border.size()) &&
+         behind > kLeastOpen * depth.border_pixels;
 }
 
 }  // namespace
@@ -106,7 +108,7 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
                .wall = kWallReach,
                .read = settings.noise.window_points / std::pow(settings.noise.window_px, 2)});
   auto measured = MeasureDepthPlane(found.points.wall, wall.m, settings.noise, kLeastWall);
-  if (!measured) {
+  if (!measured || !IsKnownAt(*measured, frame.ToEstimate().p_CV)) {
     return Miss{"no_depth", fmt::format("{} depth pixels of the wall around the frame",
                                         found.points.wall.size())};
   }
@@ -119,7 +121,7 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
   found.wall = *measured;
   found.setback_m = settings.setback_m;
   const std::vector<DepthPoint>& front = found.points.border;
-  if (IsOpen(front, found.wall, settings.setback_m)) {
+  if (IsOpen(found.points, found.wall, settings.setback_m)) {
     return Miss{"open_border", "what is seen between the frame's edges is far behind them"};
   }
   double sigma_m = settings.setback_sigma_m;

@@ -13,4 +13,10 @@ namespace fenestra {
 double FilledShare(const DarkCloud& cloud, const CameraModel& camera, const Plane& plane,
                    const PlaneTolerance& tolerance, const FourVertices& p_KV);
 
+/// How much of the least seen side of a quadrilateral the cloud has on the plane: 1 for a frame
+/// without holes in its depth, as key points lie on the frame's border. Places are seen if one of
+/// the nine pixels around them is.
+double SeenShare(const DarkCloud& cloud, const CameraModel& camera, const Plane& plane,
+                 const PlaneTolerance& tolerance, const FourVertices& p_KV);
+
 }  // namespace fenestra

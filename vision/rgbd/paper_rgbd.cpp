@@ -71,22 +71,6 @@ std::optional<Miss> CloudFault(const DarkCloud& cloud, const PaperRgbdOptions& o
   return std::nullopt;
 }
 
-// Of the pixels of the depth image that make the range image.
-int Stride(const CameraModel& camera, const PaperRgbdOptions& options) {
-  return (camera.width_px() + options.max_range_image_width_px - 1) /
-         options.max_range_image_width_px;
-}
-
-double SupportSize(const CloudShape& shape, double px_per_m, const PaperRgbdOptions& options) {
-  if (options.support_size_m > 0.0) return options.support_size_m;
-  return std::min(options.support_fraction * std::sqrt(shape.hull_area_m2),
-                  options.max_support_px / px_per_m);
-}
-
-PlaneTolerance ToleranceOf(const PaperRgbdOptions& options) {
-  return {.fixed_m = options.plane_tolerance_m, .per_z2 = options.plane_tolerance_per_m};
-}
-
 // Ends the running stage however Detect is left.
 class StageEnd {
  public:
@@ -100,6 +84,24 @@ class StageEnd {
 };
 
 }  // namespace
+
+PlaneTolerance ToleranceOf(const PaperRgbdOptions& options) {
+  return {.fixed_m = options.plane_tolerance_m, .per_z2 = options.plane_tolerance_per_m};
+}
+
+int RangeImageStride(const CameraModel& camera, const PaperRgbdOptions& options) {
+  return (camera.width_px() + options.max_range_image_width_px - 1) /
+         options.max_range_image_width_px;
+}
+
+double SupportSize(const CloudShape& shape, const CameraModel& camera,
+                   const PaperRgbdOptions& options) {
+  if (options.support_size_m > 0.0) return options.support_size_m;
+  const double px_per_m =
+      camera.parameters().fx_px / (RangeImageStride(camera, options) * shape.median_depth_m);
+  return std::min(options.support_fraction * std::sqrt(shape.hull_area_m2),
+                  options.max_support_px / px_per_m);
+}
 
 PaperRgbdDetector::PaperRgbdDetector(const RgbdCalibration& calibration,
                                      const PaperRgbdOptions& options)
@@ -163,12 +165,11 @@ Detection PaperRgbdDetector::FindFrame(const DarkCloud& cloud, StageLog& log,
   const auto shape = ShapeOf(cloud.points_K, tolerance, RandomStream(kPlaneSeed));
   if (!shape) return Miss{"no_plane", "the dark points do not span a plane"};
   const CameraModel& camera = registration_.working_camera();
-  const int stride = Stride(camera, options_);
+  const int stride = RangeImageStride(camera, options_);
   const NarfRangeImage range_image(cloud.depth_m, camera, stride, options_.unseen_is_far);
 
   log.Begin("narf");
-  const double px_per_m = camera.parameters().fx_px / (stride * shape->median_depth_m);
-  const double support_m = SupportSize(*shape, px_per_m, options_);
+  const double support_m = SupportSize(*shape, camera, options_);
   const std::vector<KeyPoint> key_points = range_image.DetectKeyPoints(
       {.support_size_m = support_m, .min_interest_value = options_.min_interest_value});
 
@@ -200,6 +201,13 @@ Detection PaperRgbdDetector::Estimate(const DarkCloud& cloud, const CloudShape& 
                                         "are allowed",
                                         filled, options_.max_filled_share)};
   }
+  const double seen =
+      SeenShare(cloud, registration_.working_camera(), shape.plane, ToleranceOf(options_), p_KV);
+  if (seen < options_.min_seen_share) {
+    return Miss{"no_frame", fmt::format("{:.2f} of a side are dark and on the plane; {:.2f} are "
+                                        "needed",
+                                        seen, options_.min_seen_share)};
+  }
   const double depth_m = crossing->p_CO.z();
   const Eigen::Matrix3d covariance_K = CrossingCovariance(
       p_KV, shape.plane,
@@ -215,7 +223,7 @@ Detection PaperRgbdDetector::Estimate(const DarkCloud& cloud, const CloudShape& 
       .p_CV = OrderedAsSeen(p_DV),
       .normal_C = X_DK.rotation() * shape.plane.normal_K,
       .covariance_C = X_DK.rotation() * covariance_K * X_DK.rotation().transpose(),
-      .score = std::min(1.0, area_fraction) * shape.inlier_share * (1.0 - filled)};
+      .score = std::min(1.0, area_fraction) * shape.inlier_share * seen * (1.0 - filled)};
   if (auto objection = ObjectionOf(options_.prior, estimate, kSideShare)) return *objection;
   return estimate;
 }

@@ -11,6 +11,13 @@
 
 namespace fenestra {
 
+/// What the options make of a cloud as the working camera sees it: how far a point may lie from its
+/// plane, of which pixels the range image is made, and NARF's support size [m].
+PlaneTolerance ToleranceOf(const PaperRgbdOptions& options);
+int RangeImageStride(const CameraModel& camera, const PaperRgbdOptions& options);
+double SupportSize(const CloudShape& shape, const CameraModel& camera,
+                   const PaperRgbdOptions& options);
+
 /// The RGB-D pipeline of S. Zhou, G. Flores, R. Lozano, P. Castillo, "Vision-based window
 /// estimation for MAV in unknown urban environments", IFAC RED-UAS 2013, section 4. Stages:
 ///
@@ -25,11 +32,12 @@ namespace fenestra {
 /// frame's corners, so p_CV lies some per cent of the side inside of the true outline, on either
 /// side alike, which leaves the centroid free of it to first order. The normal is that of the
 /// plane, the covariance that of crossing_covariance.h. The score is the quadrilateral's share of
-/// the cloud's hull, times the cloud's share on its plane, times what of its middle is free.
+/// the cloud's hull, times the cloud's share on its plane, times what is seen of its least
+/// seen side, times what of its middle is free.
 ///
 /// Misses: no_dark_pixels, no_depth_on_dark_pixels, cloud_too_small, no_plane, too_few_key_points,
-/// not_a_quadrilateral, implausible_shape; not_open with max_filled_share; unexpected_size and
-/// unexpected_shape with a prior.
+/// not_a_quadrilateral, implausible_shape; not_open with max_filled_share, no_frame with
+/// min_seen_share; unexpected_size and unexpected_shape with a prior.
 class PaperRgbdDetector : public Detector {
  public:
   /// Throws InputError for options out of range, a depth unit that is not positive, or a colour

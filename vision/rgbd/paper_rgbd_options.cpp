@@ -55,6 +55,9 @@ Table MakeTable() {
           "max_filled_share", [](Options& o) -> double& { return o.max_filled_share; }, {0.0, 1.0},
           "how much of the middle may be dark and on the plane; 1: not looked at, as in the paper")
       .Number(
+          "min_seen_share", [](Options& o) -> double& { return o.min_seen_share; }, {0.0, 1.0},
+          "how much of each side must be dark and on the plane; 0: not looked at, as in the paper")
+      .Number(
           "key_point_sigma_share", [](Options& o) -> double& { return o.key_point_sigma_share; },
           {0.0, 2.0}, "standard deviation of a vertex over NARF's support size, for the covariance")
       .Number(

@@ -59,13 +59,17 @@ struct PaperRgbdOptions {
   /// How much of the quadrilateral's middle may be dark and on its plane, see opening.h. 1, since
   /// the paper does not look: a dark board, or carpet, is a window to it. 0.5 refuses those.
   double max_filled_share = 1.0;
+  /// How much of each side of the quadrilateral must be dark and on its plane. 0, since the paper
+  /// does not look; a frame has nearly all, and half where its paint sends few dots back.
+  double min_seen_share = 0.0;
 
   // For the covariance, see crossing_covariance.h.
-  /// Where key points lie within NARF's support, as a share of its size: half of the patch that is
-  /// judged may lie to either side of an edge, and noise and missing dots choose.
-  double key_point_sigma_share = 0.1;
-  /// As many residuals as a frame itself gives.
-  double key_point_sigma_weight = 3.0;
+  /// Where key points lie within NARF's support, as a share of its size. Before paint that sends
+  /// all dots back it is 0.03 to 0.04.
+  double key_point_sigma_share = 0.05;
+  /// Little: where dots are missing key points are off by many times that, and the frame's own three
+  /// residuals are all that tells.
+  double key_point_sigma_weight = 0.5;
   /// A step of the Kinect's depth, per square of the depth (m/m²): 1/8 px of disparity.
   double depth_step_per_m = 0.00285;
 

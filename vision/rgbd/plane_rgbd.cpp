@@ -9,6 +9,7 @@
 #include "core/input_error.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
+#include "vision/rgbd/frame_paint.h"
 #include "vision/rgbd/frame_planes.h"
 #include "vision/rgbd/linear_grey.h"
 #include "vision/rgbd/observation_check.h"
@@ -26,14 +27,11 @@ constexpr double kClear_px = 1.0;
 constexpr int kMostFinished = 4;
 // Candidates that begin with less than this share of the best one's score are not measured.
 constexpr double kHopeless = 0.7;
-// Of the shorter side: where a frame without an inner edge is surely still a frame.
-constexpr double kGuessedBorder = 0.06;
-
 constexpr double kLeastOfColor = 0.5;
-
-double GuessedBorder(const FrameRectangle& frame) {
-  return kGuessedBorder * std::min(frame.width_m, frame.height_m);
-}
+// A frame is of one paint: of its sides' grey values, the brightest over the darkest, above what
+// noise and blur leave of black. Light on a wall hardly differs by so much within a window.
+constexpr double kMostUneven = 4.0;
+constexpr double kBlack_dn = 8.0;
 
 const PlaneRgbdOptions& Validated(const PlaneRgbdOptions& options) {
   Validate(options);
@@ -89,27 +87,6 @@ cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
   }
   for (const DepthPoint& point : planes.points.border) mark(point, {60, 220, 230});
   return picture;
-}
-
-// Share of places in the middle of the frame's border that have the expected colour.
-double ShareOfColor(const WindowPrior& prior, const cv::Mat3b& color, const CameraView& view,
-                    const FrameRectangle& frame) {
-  constexpr int kPlaces = 16;
-  const cv::Mat1b is_expected = ExpectedColor(prior, color);
-  FrameRectangle middle = frame;
-  middle.border_m = 0.5 * (frame.border_m > 0.0 ? frame.border_m : GuessedBorder(frame));
-  int expected = 0;
-  for (const Side side : kAllSides) {
-    for (int i = 0; i < kPlaces; ++i) {
-      const auto pixel = view.camera.Project(
-          view.X_CL * middle.PointOn(side, Border::kInner, (i + 0.5) / kPlaces));
-      if (!pixel || !view.camera.Contains(*pixel)) continue;
-      const cv::Point place(static_cast<int>(std::lround(pixel->x())),
-                            static_cast<int>(std::lround(pixel->y())));
-      if (is_expected(place) != 0) ++expected;
-    }
-  }
-  return expected / (4.0 * kPlaces);
 }
 
 // The frame as the camera at `center` sees it, with its front moved from one setback behind the
@@ -264,8 +241,14 @@ std::optional<Miss> PlaneRgbdDetector::Objection(const Sight& sight,
                                         "{:.2f}, {:.2f} are needed",
                                         clarity, options_.min_darkness)};
   }
+  const double uneven = BrightestOverDarkestSide(sight.view, fitted, kBlack_dn);
+  if (uneven > kMostUneven) {
+    return Miss{"uneven_border", fmt::format("one side of the frame is {:.1f} times as bright as "
+                                             "another, {:.1f} are allowed",
+                                             uneven, kMostUneven)};
+  }
   if (!options_.prior.knows_color()) return std::nullopt;
-  const double share = ShareOfColor(options_.prior, sight.images.color, sight.view, fitted);
+  const double share = ShareOfColor(sight.view, fitted, options_.prior, sight.images.color);
   if (share >= kLeastOfColor) return std::nullopt;
   return Miss{"unexpected_color", fmt::format("only {:.0f} % of the frame has its colour, {:.0f} % "
                                               "are needed",

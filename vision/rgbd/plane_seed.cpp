@@ -35,6 +35,10 @@ PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
     const auto corners =
         CornersOnPlane(candidate.corners_px, color, X_KD, wall->m, settings.setback_m);
     if (!corners || !AreCornersOfFrame(*corners, settings.limits)) continue;
+    if (!IsKnownAt(*wall, *corners)) {
+      ++found.without_plane;
+      continue;
+    }
     found.seeds.push_back(
         {.frame = WithHiddenSides(FrameRectangle::FromCorners(*corners),
                                   X_KD.inverse().translation(), settings.setback_m),

@@ -21,6 +21,15 @@ float MedianDisparity(const MatchedPatch& patch) {
   return *middle;
 }
 
+// Whether most of a patch was found again at another disparity: it was a double.
+bool IsExplained(const MatchedPatch& patch, const cv::Mat1b& open) {
+  const auto closed =
+      std::count_if(patch.samples.begin(), patch.samples.end(), [&open](const DisparitySample& s) {
+        return open(static_cast<int>(s.v_px), static_cast<int>(s.u_px)) == 0;
+      });
+  return 2 * static_cast<size_t>(closed) > patch.samples.size();
+}
+
 struct Band {
   cv::Range rows;
   BlockMatchingSettings settings;
@@ -59,7 +68,7 @@ std::optional<cv::Mat1f> MatchAgainNearPatches(
     const bool done = std::any_of(searched.begin(), searched.end(), [d](float before) {
       return std::abs(d - before) < kReach * before;
     });
-    if (unique || done) continue;
+    if (unique || done || IsExplained(*patch, open)) continue;
     searched.push_back(d);
     if (result.empty()) result = disparity.clone();
     const Band band = AroundPatch(*patch, d, disparity.rows, settings);

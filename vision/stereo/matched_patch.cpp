@@ -80,9 +80,32 @@ std::vector<MatchedPatch> SplitByDisparity(const cv::Mat1b& usable, const cv::Re
   return patches;
 }
 
+// The box of all matched pixels with a rim without matches, wide enough for the morphology to see
+// what it would see in the whole image.
+cv::Rect MatchedRegion(const cv::Mat1f& disparity, const PatchSettings& settings) {
+  const cv::Rect box = cv::boundingRect(cv::Mat1b(disparity > 0.0f));
+  if (box.empty()) return {};
+  const int rim = settings.opening_px + settings.gap_height_px + settings.gap_width_px;
+  const cv::Rect wider(box.x - rim, box.y - rim, box.width + 2 * rim, box.height + 2 * rim);
+  return wider & cv::Rect({0, 0}, disparity.size());
+}
+
+void Move(const cv::Point& by, MatchedPatch& patch) {
+  patch.box += by;
+  for (cv::Point& p : patch.hull) p += by;
+  for (DisparitySample& s : patch.samples) {
+    s.u_px += static_cast<float>(by.x);
+    s.v_px += static_cast<float>(by.y);
+  }
+}
+
 }  // namespace
 
-std::vector<MatchedPatch> FindPatches(const cv::Mat1f& disparity, const PatchSettings& settings) {
+std::vector<MatchedPatch> FindPatches(const cv::Mat1f& whole, const PatchSettings& settings) {
+  // Most of a wall has no matches, and what is empty needs no morphology.
+  const cv::Rect region = MatchedRegion(whole, settings);
+  if (region.empty()) return {};
+  const cv::Mat1f disparity = whole(region);
   const cv::Mat1b matched = disparity > 0.0f;
   cv::Mat1b opened;
   cv::morphologyEx(matched, opened, cv::MORPH_OPEN,
@@ -103,6 +126,7 @@ std::vector<MatchedPatch> FindPatches(const cv::Mat1f& disparity, const PatchSet
     std::vector<MatchedPatch> split = SplitByDisparity(usable, box, disparity, settings);
     std::move(split.begin(), split.end(), std::back_inserter(patches));
   }
+  for (MatchedPatch& patch : patches) Move(region.tl(), patch);
   std::stable_sort(patches.begin(), patches.end(),
                    [](const auto& p, const auto& q) { return p.area_px > q.area_px; });
   if (patches.size() > kMostPatches) patches.resize(kMostPatches);

@@ -36,7 +36,7 @@ std::optional<WindowEstimate> WindowOnPlane(const Quadrilateral& corners_px,
 }
 
 WindowEstimate Rotated(const Eigen::Matrix3d& R_CF, const WindowEstimate& estimate_F) {
-  WindowEstimate estimate;
+  WindowEstimate estimate = estimate_F;  // Score and all else that does not turn.
   estimate.p_CO = R_CF * estimate_F.p_CO;
   for (size_t i = 0; i < 4; ++i) estimate.p_CV[i] = R_CF * estimate_F.p_CV[i];
   estimate.normal_C = R_CF * estimate_F.normal_C;

@@ -408,7 +408,7 @@ TEST(PlaneRgbd, OtherSensorsSizesAndUnitsAreInputErrors) {
   EXPECT_EQ(detector.sensor(), SensorKind::kRgbd);
   EXPECT_THROW(detector.Detect(StereoObservation{}, log), InputError);
   EXPECT_THROW(detector.Detect(RgbdObservation{}, log), InputError);
-  RgbdObservation seen = Seen(calibration, SceneAt({}), 15);
+  RgbdObservation seen = Seen(calibration, SceneAt({.distance_m = 2.0}), 15);
   seen.depth.unit_m = 0.01;
   EXPECT_THROW(detector.Detect(seen, log), InputError);
   RgbdCalibration bad = calibration;

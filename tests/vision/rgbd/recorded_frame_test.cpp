@@ -9,27 +9,62 @@
 namespace fenestra {
 namespace {
 
-const std::filesystem::path kFolder =
-    std::filesystem::path(FENESTRA_SOURCE_DIR) / "tests/data/rgbd-tum";
+struct Recording {
+  std::string color;
+  std::string depth;
+  CameraParameters camera;
+  double depth_unit_m;
+};
 
-template <typename DetectorType, typename Options>
-Detection DetectOnDesk(const Options& options) {
-  const CameraModel camera({.width_px = 640,
-                            .height_px = 480,
-                            .fx_px = 520.9,
-                            .fy_px = 521.0,
-                            .cx_px = 325.1,
-                            .cy_px = 249.7,
-                            .distortion = {}});
-  const DetectorType detector({camera, camera, Pose(), 1.0 / 5000.0}, options);
+CameraParameters Camera(double fx_px, double fy_px, double cx_px, double cy_px) {
+  return {.width_px = 640,
+          .height_px = 480,
+          .fx_px = fx_px,
+          .fy_px = fy_px,
+          .cx_px = cx_px,
+          .cy_px = cy_px,
+          .distortion = {}};
+}
+
+const Recording kDesk{.color = "rgbd-tum/color.png",
+                      .depth = "rgbd-tum/depth.png",
+                      .camera = Camera(520.9, 521.0, 325.1, 249.7),
+                      .depth_unit_m = 1.0 / 5000.0};
+const Recording kLivingRoom{.color = "rgbd-icl-nuim/color.png",
+                            .depth = "rgbd-icl-nuim/depth.png",
+                            .camera = Camera(481.2, 480.0, 319.5, 239.5),
+                            .depth_unit_m = 1.0 / 5000.0};
+const Recording kCarpet{.color = "kinect-pcl/color.tiff",
+                        .depth = "kinect-pcl/depth.tiff",
+                        .camera = Camera(525.0, 525.0, 319.5, 239.5),
+                        .depth_unit_m = 0.001};
+
+template <typename DetectorType = PaperRgbdDetector, typename Options = PaperRgbdOptions>
+Detection DetectIn(const Recording& recording, const Options& options) {
+  const auto folder = std::filesystem::path(FENESTRA_SOURCE_DIR) / "tests/data";
+  const CameraModel camera(recording.camera);
+  const DetectorType detector({camera, camera, Pose(), recording.depth_unit_m}, options);
   StageLog log([] { return 0.0; });
-  return detector.Detect(RgbdObservation{ReadColorImage(kFolder / "color.png"),
-                                         {ReadDepthImage(kFolder / "depth.png"), 1.0 / 5000.0}},
-                         log);
+  return detector.Detect(
+      RgbdObservation{ReadColorImage(folder / recording.color),
+                      {ReadDepthImage(folder / recording.depth), recording.depth_unit_m}},
+      log);
+}
+
+Detection DetectOnDesk(const PaperRgbdOptions& options) {
+  return DetectIn(kDesk, options);
+}
+
+// A frame whose sides are seen and whose middle is not.
+PaperRgbdOptions OpenFrames() {
+  PaperRgbdOptions options;
+  options.min_seen_share = 0.5;
+  options.max_filled_share = 0.5;
+  return options;
 }
 
 TEST(RecordedFrameTest, AmongManyDarkThingsThereIsNoWindow) {
-  const Detection detection = DetectOnDesk<PaperRgbdDetector>(PaperRgbdOptions{});
+  const Detection detection = DetectOnDesk({});
   ASSERT_TRUE(std::holds_alternative<Miss>(detection));
   EXPECT_EQ(std::get<Miss>(detection).reason, "implausible_shape");
 }
@@ -37,7 +72,7 @@ TEST(RecordedFrameTest, AmongManyDarkThingsThereIsNoWindow) {
 TEST(RecordedFrameTest, TheLargestDarkThingIsTheMonitor) {
   PaperRgbdOptions options;
   options.cloud = "largest_component";
-  const Detection detection = DetectOnDesk<PaperRgbdDetector>(options);
+  const Detection detection = DetectOnDesk(options);
   ASSERT_TRUE(std::holds_alternative<WindowEstimate>(detection));
   const auto& estimate = std::get<WindowEstimate>(detection);
   // The middle of the black screen is at pixel (308, 162), as one reads off the image; the
@@ -47,12 +82,33 @@ TEST(RecordedFrameTest, TheLargestDarkThingIsTheMonitor) {
   EXPECT_NEAR(estimate.p_CO.z(), 1.53, 0.05);
 }
 
+TEST(RecordedFrameTest, APictureFrameThatTheImageCutsIsNoWindow) {
+  for (const PaperRgbdOptions& options : {PaperRgbdOptions{}, OpenFrames()}) {
+    EXPECT_TRUE(std::holds_alternative<Miss>(DetectIn(kLivingRoom, options)));
+  }
+}
+
+TEST(RecordedFrameTest, ADarkCarpetIsAWindowToThePaperUnlessAFrameIsAskedFor) {
+  EXPECT_TRUE(std::holds_alternative<WindowEstimate>(DetectIn(kCarpet, {})));
+  PaperRgbdOptions options = OpenFrames();
+  for (const char* cloud : {"all", "largest_component", "each_component"}) {
+    options.cloud = cloud;
+    EXPECT_TRUE(std::holds_alternative<Miss>(DetectIn(kCarpet, options))) << cloud;
+  }
+}
+
+TEST(RecordedFrameTest, AScreenHasNoOpening) {
+  PaperRgbdOptions options = OpenFrames();
+  options.cloud = "each_component";
+  EXPECT_TRUE(std::holds_alternative<Miss>(DetectOnDesk(options)));
+}
+
 // The only dark quadrilateral is the monitor's screen; but the plane around it is the floor's or
 // the desk's, on which it would be no rectangle: it hangs in no wall.
 TEST(RecordedFrameTest, AMonitorBeforeARoomHangsInNoWall) {
   PlaneRgbdOptions options;
   options.depth_to_m = 0.0;  // Not the SDK's driver.
-  const Detection detection = DetectOnDesk<PlaneRgbdDetector>(options);
+  const Detection detection = DetectIn<PlaneRgbdDetector>(kDesk, options);
   ASSERT_TRUE(std::holds_alternative<Miss>(detection));
   EXPECT_EQ(std::get<Miss>(detection).reason, "not_a_rectangle");
 }

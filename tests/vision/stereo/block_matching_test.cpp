@@ -95,11 +95,10 @@ TEST(GuidedMatching, BringsBackTheRightSideOfAFarFrame) {
                                           .gap_width_px = 5,
                                           .min_height_px = 20,
                                           .disparity_step_px = 1.0});
-  const auto again =
+  const auto twice =
       MatchAgainNearPatches(pair, rectification.left_seen(), rectification.right_seen(), settings,
                             once, patches, 0.3 / 0.35);
-  ASSERT_TRUE(again);
-  const cv::Mat1f& twice = *again;
+  ASSERT_TRUE(twice);
   // The right border's middle: 0.45 m right of the centroid, 0.6 m of its height.
   const double scale = rectification.camera().f_px / 8.0;
   const int u = static_cast<int>(375.5 + (0.175 + 0.45) * scale);
@@ -108,7 +107,7 @@ TEST(GuidedMatching, BringsBackTheRightSideOfAFarFrame) {
   const double truth_px = rectification.camera().DisparityFromDepth(8.0);
   // The first search finds the side's two ends at most, since there the frame's corners differ.
   EXPECT_LT(MatchedShare(once, side, truth_px), 0.5);
-  EXPECT_GT(MatchedShare(twice, side, truth_px), 0.9);
+  EXPECT_GT(MatchedShare(*twice, side, truth_px), 0.9);
 }
 
 }  // namespace

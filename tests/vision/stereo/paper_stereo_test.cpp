@@ -126,6 +126,61 @@ TEST(PaperStereo, BrightnessDoesNotMatter) {
   }
 }
 
+TEST(PaperStereo, TwiceTheLightChangesNothingButTheNoise) {
+  const StereoCalibration rig = PaperRig();
+  const Pose X_LO = WindowSeenFrom({.distance_m = 4.0, .azimuth_deg = 8.0});
+  const Photo dim{.wall_dn = 110.0, .frame_dn = 10.0, .noise_dn = 1.0};
+  const StereoObservation seen = Photograph(rig, X_LO, {}, dim, RandomStream(4));
+  const StereoObservation twice{2.0 * seen.left, 2.0 * seen.right};
+  ExpectCentroid(Detect(rig, seen), X_LO);
+  ExpectCentroid(Detect(rig, twice), X_LO);
+}
+
+TEST(PaperStereo, SeveralWindowsAreReportedTheBestFirst) {
+  const StereoCalibration rig = PaperRig();
+  // Two frames, one in the left half of both images, one in the right.
+  StereoObservation seen = Photograph(rig, WindowSeenFrom({.distance_m = 5.0, .yaw_deg = 16.0}), {},
+                                      kNoisy, RandomStream(3));
+  const StereoObservation other = Photograph(
+      rig, WindowSeenFrom({.distance_m = 5.0, .yaw_deg = -16.0}), {}, kNoisy, RandomStream(4));
+  seen.left = cv::Mat1b(cv::min(cv::Mat(seen.left), cv::Mat(other.left)));
+  seen.right = cv::Mat1b(cv::min(cv::Mat(seen.right), cv::Mat(other.right)));
+  PaperStereoOptions options;  // Without a size, what is between the two would be a window, too.
+  options.prior.expected_width_m = options.prior.expected_height_m = 1.0;
+  const Detection detection = Detect(rig, seen, options);
+  const auto* best = std::get_if<WindowEstimate>(&detection);
+  ASSERT_NE(best, nullptr) << Describe(detection);
+  ASSERT_EQ(best->others.size(), 1u);
+  ASSERT_TRUE(best->score && best->others[0].score);
+  EXPECT_GE(*best->score, *best->others[0].score);
+  EXPECT_GT(*best->others[0].score, 0.3);
+  EXPECT_LE(*best->score, 1.0);
+  // 16° to either side of straight ahead: 2 · 5 m · sin 16°.
+  EXPECT_NEAR((best->p_CO - best->others[0].p_CO).norm(), 2.76, 0.1);
+  options.most_windows = 1;
+  const Detection alone = Detect(rig, seen, options);
+  EXPECT_TRUE(std::get<WindowEstimate>(alone).others.empty());
+}
+
+TEST(PaperStereo, APriorRefusesOtherSizesAndGreys) {
+  const StereoCalibration rig = PaperRig();
+  const auto seen = Photograph(rig, WindowSeenFrom({}), {}, kNoisy, RandomStream(5));
+  const auto reason = [&](const PaperStereoOptions& options) {
+    const Detection detection = Detect(rig, seen, options);
+    const Miss* miss = std::get_if<Miss>(&detection);
+    return miss == nullptr ? "found" : miss->reason;
+  };
+  PaperStereoOptions options;
+  options.prior.expected_width_m = options.prior.expected_height_m = 1.0;
+  options.prior.expected_shape = ExpectedShape::kUprightRectangle;
+  options.prior.expected_grey_ratio = 0.03;  // (12 - 8) / (165 - 8).
+  EXPECT_EQ(reason(options), "found");
+  options.prior.expected_grey_ratio = 0.6;
+  EXPECT_EQ(reason(options), "unexpected_grey");
+  options.prior.expected_width_m = 2.0;
+  EXPECT_EQ(reason(options), "unexpected_size");
+}
+
 TEST(PaperStereo, SwappedImagesAreAMiss) {
   const StereoCalibration rig = PaperRig();
   StereoObservation seen =
