@@ -57,8 +57,8 @@ TEST(RunTrialsTest, RowsDoNotDependOnTheNumberOfJobsOrTheOrder) {
   const Study study = SmallStudy();
   std::vector<TrialKey> order = AllTrials(Cells(study));
   const std::string one_job = Rows(study, order, 1);
-  // Four trials of stereo with two detectors, four of RGB-D with one.
-  EXPECT_EQ(std::count(one_job.begin(), one_job.end(), '\n'), 1 + 4 * 2 + 4);
+  // Four trials of each sensor, each under two detectors.
+  EXPECT_EQ(std::count(one_job.begin(), one_job.end(), '\n'), 1 + 4 * 2 + 4 * 2);
   EXPECT_EQ(Rows(study, order, 2), one_job);
   std::reverse(order.begin(), order.end());
   EXPECT_EQ(Rows(study, order, 1), one_job);
@@ -80,7 +80,7 @@ TEST(RunStudyTest, LeavesEveryFileAndEveryTrialReplaysToTheLastBit) {
   const TemporaryFolder folder;
   const StudyRun run{.study = SmallStudy(), .study_text = kStudy, .out = folder / "out", .jobs = 2};
   const std::vector<CellSummary> summaries = RunStudy(run).summaries;
-  EXPECT_EQ(summaries.size(), 6u);
+  EXPECT_EQ(summaries.size(), 8u);
   for (const char* name : {"results.sqlite", "trials.csv", "summary.csv", "summary.md",
                            "study.yaml", "pictures/cell_000_main_stereo/paper-stereo/left.png",
                            "pictures/cell_002_main_rgbd/paper-rgbd/color.png"}) {

@@ -31,10 +31,11 @@ TEST(PaperRgbdOptions, EveryOptionCanBeSetByItsName) {
   const auto& table = PaperRgbdParameters();
   for (const ParameterInfo& info : table.infos()) {
     PaperRgbdOptions options;
-    const ParameterValue value = info.type == ParameterInfo::Type::kSwitch ? ParameterValue(false)
-                                 : info.type == ParameterInfo::Type::kChoice
-                                     ? ParameterValue(info.choices.back())
-                                     : ParameterValue(info.max);
+    const ParameterValue value =
+        info.type == ParameterInfo::Type::kSwitch ? ParameterValue(false)
+        : info.type == ParameterInfo::Type::kChoice
+            ? ParameterValue(info.choices.back())
+            : ParameterValue(info.default_value == ParameterValue(info.max) ? info.min : info.max);
     table.Set(options, info.name, value);
     EXPECT_EQ(table.Get(options, info.name), value) << info.name;
     EXPECT_NE(table.Get(PaperRgbdOptions{}, info.name), value) << info.name;
