@@ -35,7 +35,9 @@ std::vector<double> ReadMatrix(YamlReader& reader, const std::string& name, size
 
 // Distortion vectors come with 4, 5 or more entries; what a Brown–Conrady lens cannot express must
 // be zero.
-BrownConrady ReadDistortion(YamlReader& reader, const YAML::Node& data, const std::string& name) {
+BrownConrady ReadDistortion(YamlReader& reader, const std::string& name) {
+  const YAML::Node node = reader.root()[name];
+  const YAML::Node data = node.IsDefined() && node.IsMap() ? node["data"] : node;
   if (!data.IsDefined()) {
     reader.AddFault(reader.root(), name + " is missing: k1 k2 p1 p2 [k3]");
     return {};
@@ -90,9 +92,7 @@ CameraModel ReadCamera(YamlReader& reader, const std::string& size_prefix, const
   const int width_px = ReadSize(reader, size_prefix + "_width");
   const int height_px = ReadSize(reader, size_prefix + "_height");
   const std::vector<double> matrix = ReadMatrix(reader, K, 3, 3);
-  const YAML::Node D_node = reader.root()[D];
-  const YAML::Node D_data = D_node.IsMap() ? D_node["data"] : D_node;
-  const BrownConrady distortion = ReadDistortion(reader, D_data, D);
+  const BrownConrady distortion = ReadDistortion(reader, D);
   return CameraModel(
       FromMatrix(reader, reader.root()[K], K, width_px, height_px, matrix, distortion));
 }
@@ -229,9 +229,7 @@ CameraModel ReadCameraInfo(const std::filesystem::path& file) {
     reader.AddFault(model,
                     "distortion_model must be plumb_bob, not " + YamlReader::Describe(model));
   }
-  const YAML::Node D = reader.root()["distortion_coefficients"];
-  const BrownConrady distortion =
-      ReadDistortion(reader, D.IsMap() ? D["data"] : D, "distortion_coefficients");
+  const BrownConrady distortion = ReadDistortion(reader, "distortion_coefficients");
   const CameraParameters parameters = FromMatrix(
       reader, reader.root()["camera_matrix"], "camera_matrix", width_px, height_px, K, distortion);
   reader.ThrowIfFaulty();

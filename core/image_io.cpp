@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
+#include <string_view>
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
@@ -13,6 +15,7 @@ namespace fenestra {
 namespace {
 
 constexpr int kLargestSide = 16384;
+constexpr const char* kNotAnImage = "not a readable image (PNG, TIFF, JPEG, PGM)";
 constexpr std::array<unsigned char, 8> kPngSignature = {0x89, 'P',  'N',  'G',
                                                         '\r', '\n', 0x1a, '\n'};
 
@@ -36,18 +39,38 @@ void RefuseHugePng(const std::filesystem::path& file) {
   }
 }
 
+// OpenCV reads some twenty formats, some of them through libraries that were never meant for files
+// from outside; only these are let through to it.
+bool IsKnownFormat(const std::filesystem::path& file) {
+  std::array<char, 8> bytes{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), bytes.size());
+  const std::string_view start(bytes.data(), static_cast<size_t>(stream.gcount()));
+  constexpr std::array<std::string_view, 8> kStarts = {"\x89PNG\r\n\x1a\n",
+                                                       "\xff\xd8\xff",
+                                                       std::string_view("II*\0", 4),
+                                                       std::string_view("MM\0*", 4),
+                                                       "P2",
+                                                       "P3",
+                                                       "P5",
+                                                       "P6"};
+  return std::any_of(kStarts.begin(), kStarts.end(),
+                     [start](std::string_view known) { return start.starts_with(known); });
+}
+
 cv::Mat Read(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw InputError(file, "no such file");
   if (!std::filesystem::is_regular_file(file, error)) throw InputError(file, "not a regular file");
   RefuseHugePng(file);
+  if (!IsKnownFormat(file)) throw InputError(file, kNotAnImage);
   cv::Mat image;
   try {
     image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception&) {
     image.release();
   }
-  if (image.empty()) throw InputError(file, "not a readable image (PNG, TIFF, JPEG, PGM)");
+  if (image.empty()) throw InputError(file, kNotAnImage);
   if (image.cols > kLargestSide || image.rows > kLargestSide) {
     throw InputError(file, fmt::format("{} x {} pixels; at most {} a side are read", image.cols,
                                        image.rows, kLargestSide));

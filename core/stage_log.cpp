@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+
+#include "core/check.h"
 
 namespace fenestra {
 
@@ -15,13 +18,23 @@ Clock SteadyClock() {
 StageLog::StageLog(Clock clock, bool keep_artifacts)
     : clock_(std::move(clock)), keep_artifacts_(keep_artifacts) {}
 
-void StageLog::Begin(const std::string& stage) {
-  End();
+size_t StageLog::IndexOf(const std::string& stage) {
   const auto found = std::find_if(times_.begin(), times_.end(),
                                   [&stage](const StageTime& time) { return time.stage == stage; });
-  running_ = static_cast<int>(found - times_.begin());
+  const auto index = static_cast<size_t>(found - times_.begin());
   if (found == times_.end()) times_.push_back({stage, 0.0});
+  return index;
+}
+
+void StageLog::Begin(const std::string& stage) {
+  End();
+  running_ = static_cast<int>(IndexOf(stage));
   resumed_at_ = clock_();
+}
+
+void StageLog::Add(const StageTime& time) {
+  FENESTRA_CHECK(std::isfinite(time.seconds) && time.seconds >= 0.0, "time of " + time.stage);
+  times_[IndexOf(time.stage)].seconds += time.seconds;
 }
 
 void StageLog::End() {

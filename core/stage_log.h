@@ -55,6 +55,8 @@ class StageLog {
   /// Ends the running stage, if any, and starts the next one. A stage that is begun twice adds up.
   void Begin(const std::string& stage);
   void End();
+  /// Adds a stage that was timed elsewhere, finite and not negative.
+  void Add(const StageTime& time);
 
   void Picture(const std::string& name, const std::function<cv::Mat()>& make,
                const std::vector<PictureView>& views = {});
@@ -68,6 +70,8 @@ class StageLog {
   double TotalSeconds() const;
 
  private:
+  /// Of the stage in times_, where it is put if it is new.
+  size_t IndexOf(const std::string& stage);
   /// Runs `make` with the clock of the running stage stopped.
   void OffTheClock(const std::function<void()>& make);
 

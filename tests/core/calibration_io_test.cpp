@@ -165,6 +165,14 @@ TEST(CalibrationIoTest, AllFaultsAreReportedWithTheirPlace) {
   }
 }
 
+TEST(CalibrationIoTest, AFileOfAnotherKindIsRefused) {
+  const TemporaryFolder folder;
+  const auto file = folder.Write("other.yaml", "image_width: 640\nimage_height: 480\n");
+  EXPECT_THROW(ReadStereoCalibration(file), InputError);
+  EXPECT_THROW(ReadRgbdCalibration(file), InputError);
+  EXPECT_THROW(ReadCameraInfo(file), InputError);
+}
+
 TEST(CalibrationIoTest, WhatIsNoRotationOrNoBaselineIsRefused) {
   const TemporaryFolder folder;
   const std::string text = ToOpenCvYaml(StereoCalibration{Camera(1.0), Camera(1.0), Pose()});
