@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
+
+#include "core/detector_failure.h"
 
 namespace fenestra {
 namespace {
@@ -70,6 +73,18 @@ Outcome OutcomeOf(const Answer& answer, const GroundTruth& truth) {
 }
 
 }  // namespace
+
+std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect) {
+  try {
+    return detect();
+  } catch (const DetectorFailure& failure) {
+    return Crash{failure.kind(), failure.what()};
+  } catch (const std::exception& error) {
+    return Crash{"exception", error.what()};
+  } catch (...) {
+    return Crash{"exception", "of a type that is not std::exception"};
+  }
+}
 
 Score ScoreDetection(const std::variant<Detection, Crash>& detection, const GroundTruth& truth) {
   const Answer answer = Judge(detection);

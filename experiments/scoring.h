@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <variant>
 
@@ -14,6 +15,10 @@ struct Crash {
   std::string kind;    ///< A stable identifier in snake_case: "exception", "timeout", "nonsense".
   std::string detail;  ///< For people: the exception's text, the offending numbers.
 };
+
+/// What `detect` returns, or what became of it: a Crash of the kind that a DetectorFailure names,
+/// or of kind "exception" for anything else that is thrown.
+std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect);
 
 /// A hit is at most this fraction of the window's side away from the truth. The side is the smaller
 /// of width and height: a drone that aims so far off centre keeps a quarter of the side to the
