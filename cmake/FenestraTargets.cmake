@@ -41,8 +41,10 @@ function(fenestra_library name)
   add_library(fenestra::${name} ALIAS fenestra_${name})
   target_link_libraries(fenestra_${name}
     PUBLIC ${ARG_PUBLIC}
-    PRIVATE fenestra_options ${ARG_PRIVATE})
-  target_include_directories(fenestra_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+    PRIVATE $<BUILD_INTERFACE:fenestra_options> ${ARG_PRIVATE})
+  target_include_directories(fenestra_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/fenestra>)
+  target_compile_features(fenestra_${name} PUBLIC cxx_std_20)
   set_target_properties(fenestra_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()
 

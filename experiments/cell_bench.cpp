@@ -1,7 +1,5 @@
 #include "experiments/cell_bench.h"
 
-#include <exception>
-
 #include "experiments/scoring.h"
 #include "experiments/trial_scene.h"
 
@@ -20,8 +18,11 @@ TargetOptions TargetOf(const TrialSettings& settings) {
 CellBench::World::World(const TrialSettings& settings)
     : scene(MakeScene(settings)), caster(scene) {}
 
-CellBench::CellBench(const Study& study, const Cell& cell)
-    : cell_(cell), sampler_(study, cell), detector_choices_(DetectorsOf(study, cell)) {
+CellBench::CellBench(const Study& study, const Cell& cell, std::shared_ptr<DetectorMaker> detectors)
+    : cell_(cell),
+      sampler_(study, cell),
+      detector_choices_(DetectorsOf(study, cell)),
+      maker_(std::move(detectors)) {
   bool scene_is_drawn = false;
   bool sensor_is_drawn = false;
   for (const auto& [name, distribution] : DrawnFactors(study, cell)) {
@@ -35,8 +36,7 @@ CellBench::CellBench(const Study& study, const Cell& cell)
     shared_instrument_ = std::make_shared<const Instrument>(
         MakeInstrument(cell.settings, SharedStreams(study, cell)));
     for (const DetectorChoice& choice : detector_choices_) {
-      shared_detectors_.push_back(
-          MakeDetector(choice.name, shared_instrument_->calibration, choice.options));
+      shared_detectors_.push_back(maker_->Make(choice, shared_instrument_->calibration));
     }
   }
 }
@@ -103,19 +103,13 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
                        bool keep_artifacts) const {
   const DetectorChoice& choice = detector_choices_[detector];
   StageLog log(SteadyClock(), keep_artifacts);
-  std::variant<Detection, Crash> outcome = Crash{};
-  try {
+  const auto detect = [&] {
     std::unique_ptr<Detector> own;
-    if (shared_detectors_.empty()) {
-      own = MakeDetector(choice.name, simulated.calibration, choice.options);
-    }
+    if (shared_detectors_.empty()) own = maker_->Make(choice, simulated.calibration);
     const Detector& tested = own ? *own : *shared_detectors_[detector];
-    outcome = tested.Detect(simulated.observation, log);
-  } catch (const std::exception& error) {
-    outcome = Crash{"exception", error.what()};
-  } catch (...) {
-    outcome = Crash{"exception", "of a type that is not std::exception"};
-  }
+    return tested.Detect(simulated.observation, log);
+  };
+  const std::variant<Detection, Crash> outcome = DetectionOrCrash(detect);
   log.End();
   TrialRecord record{.cell = cell_.index,
                      .trial = simulated.trial.index,

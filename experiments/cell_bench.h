@@ -8,6 +8,7 @@
 #include "core/calibration.h"
 #include "core/detector.h"
 #include "experiments/calibration_cache.h"
+#include "experiments/detector_maker.h"
 #include "experiments/trial_bench.h"
 #include "renderers/ray_caster.h"
 #include "sim/stereo_rig.h"
@@ -19,8 +20,9 @@ namespace fenestra {
 /// the sensor, the detectors. What a study draws anew in every trial is made anew in every trial.
 class CellBench final : public TrialBench {
  public:
-  /// Keeps references to neither argument.
-  CellBench(const Study& study, const Cell& cell);
+  /// Keeps no references. Benches that share `detectors` share running programs, too.
+  CellBench(const Study& study, const Cell& cell,
+            std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>());
 
   const Cell& cell() const override { return cell_; }
   const std::vector<DetectorChoice>& detectors() const override { return detector_choices_; }
@@ -51,6 +53,7 @@ class CellBench final : public TrialBench {
   Cell cell_;
   TrialSampler sampler_;
   std::vector<DetectorChoice> detector_choices_;
+  std::shared_ptr<DetectorMaker> maker_;
   CalibrationCache cache_ = CalibrationCache::OfUser();
   std::shared_ptr<const World> shared_world_;            ///< Null if trials draw the scene.
   std::shared_ptr<const Instrument> shared_instrument_;  ///< Null if trials draw the sensor.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/did_you_mean.h"
+#include "experiments/detector_process_reader.h"
 #include "experiments/factor_reader.h"
 
 namespace fenestra {
@@ -48,13 +49,42 @@ std::optional<OptionValues> ReadOptions(YamlReader& reader, const YAML::Node& no
   return good ? std::optional(values) : std::nullopt;
 }
 
+bool ReadLabel(YamlReader& reader, const YAML::Node& node, DetectorChoice& choice) {
+  const YAML::Node label = node["label"];
+  if (!label.IsDefined()) return true;
+  const auto text = ReadName(reader, label, "a detector's label");
+  choice.label = text.value_or("");
+  return text.has_value();
+}
+
+std::optional<GivenDetector> ReadProgram(YamlReader& reader, const YAML::Node& node,
+                                         std::span<const DetectorInfo> known) {
+  if (!node["name"].IsDefined()) {
+    reader.AddFault(node, "a detector needs a name");
+    return std::nullopt;
+  }
+  auto choice = ReadExternalDetector(reader, node);
+  if (!choice) return std::nullopt;
+  choice->label = choice->name;
+  if (Find(known, choice->name) != nullptr) {
+    reader.AddFault(node["name"], fmt::format("'{}' is a detector of this program: call the one "
+                                              "with a command otherwise",
+                                              choice->name));
+    return std::nullopt;
+  }
+  return ReadLabel(reader, node, *choice) ? std::optional(GivenDetector{*choice, node})
+                                          : std::nullopt;
+}
+
 std::optional<GivenDetector> ReadDetector(YamlReader& reader, const YAML::Node& node,
                                           std::span<const DetectorInfo> known) {
-  static const std::vector<std::string> keys{"name", "label", "options"};
+  static const std::vector<std::string> keys{"name",    "label",        "options",
+                                             "isolate", "time_limit_s", "start_limit_s"};
   if (!node.IsMap()) {
     const DetectorInfo* info = ReadDetectorName(reader, node, known);
     return info ? std::optional(GivenDetector{DefaultChoice(*info), node}) : std::nullopt;
   }
+  if (node["command"].IsDefined()) return ReadProgram(reader, node, known);
   bool good = reader.CheckKeys(node, "a detector", keys);
   if (!node["name"].IsDefined()) {
     reader.AddFault(node, "a detector needs a name");
@@ -63,11 +93,10 @@ std::optional<GivenDetector> ReadDetector(YamlReader& reader, const YAML::Node& 
   const DetectorInfo* info = ReadDetectorName(reader, node["name"], known);
   if (info == nullptr) return std::nullopt;
   GivenDetector given{DefaultChoice(*info), node};
-  if (const YAML::Node label = node["label"]; label.IsDefined()) {
-    const auto text = ReadName(reader, label, "a detector's label");
-    good = good && text.has_value();
-    given.choice.label = text.value_or("");
-  }
+  good = ReadLabel(reader, node, given.choice) && good;
+  const GivenProcess isolation = ReadIsolation(reader, node, info->isolate);
+  good = isolation.good && good;
+  given.choice.process = isolation.process;
   if (const YAML::Node options = node["options"]; options.IsDefined()) {
     const auto values = ReadOptions(reader, options, *info);
     good = good && values.has_value();
@@ -107,6 +136,7 @@ std::optional<std::vector<GivenDetector>> ReadDetectors(YamlReader& reader, cons
 DetectorChoice DefaultChoice(const DetectorInfo& detector) {
   DetectorChoice choice{
       .label = detector.name, .name = detector.name, .sensor = detector.sensor, .options = {}};
+  if (detector.isolate) choice.process = DetectorProcess{};
   for (const ParameterInfo& option : detector.options) {
     choice.options[option.name] = WrittenDefault(option);
   }

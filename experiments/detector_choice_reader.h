@@ -17,8 +17,9 @@ struct GivenDetector {
   YAML::Node node;
 };
 
-/// Reads a list of detectors, each a name or {name: …, label: …, options: {…}}; options that are
-/// not given have their defaults, a missing label is the name. Faults are noted in the reader; the
+/// Reads a list of detectors, each a name or {name: …, label: …, options: {…}, isolate: …}, or a
+/// program of the user's own (see detector_process_reader.h); options that are not given have their
+/// defaults, a missing label is the name. Faults are noted in the reader; the
 /// result is nullopt if there are any.
 std::optional<std::vector<GivenDetector>> ReadDetectors(YamlReader& reader, const YAML::Node& node,
                                                         std::span<const DetectorInfo> known);

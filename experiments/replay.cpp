@@ -61,7 +61,8 @@ std::vector<std::string> Differences(const TrialRecord& recorded, const TrialRec
 }  // namespace
 
 std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, int trial,
-                                const std::filesystem::path& out) {
+                                const std::filesystem::path& out,
+                                std::shared_ptr<DetectorMaker> detectors) {
   const std::filesystem::path file = StoreFile(results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
   std::vector<ReplayedRow> rows;
@@ -73,7 +74,9 @@ std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, 
   const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   const std::vector<TrialKey> trials = {{cell, trial}};
-  const RunOptions options{.jobs = 1, .keep_artifacts = [&](TrialKey) { return !out.empty(); }};
+  const RunOptions options{.jobs = 1,
+                           .keep_artifacts = [&](TrialKey) { return !out.empty(); },
+                           .detectors = std::move(detectors)};
   RunTrials(study, cells, trials, options, [&](const FinishedTrial& finished) {
     for (const TrialRecord& repeated : finished.Records()) {
       for (ReplayedRow& row : rows) {

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "experiments/detector_maker.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
@@ -19,7 +21,9 @@ struct ReplayedRow {
 /// Runs a recorded trial again from the store alone. `results` is a results folder or its
 /// results.sqlite. With `out`, writes every picture (WritePictures) and the files of the trial
 /// (WriteTrialFiles). Throws InputError if the store has no such trial.
-std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, int trial,
-                                const std::filesystem::path& out = {});
+std::vector<ReplayedRow> Replay(
+    const std::filesystem::path& results, int cell, int trial,
+    const std::filesystem::path& out = {},
+    std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>());
 
 }  // namespace fenestra

@@ -48,6 +48,9 @@ fs::path StoreFile(const fs::path& results) {
 }
 
 Study StudyOf(const ResultStore& store, const fs::path& file) {
+  if (!store.Metadata().contains("study")) {
+    throw InputError(file, "holds no study: a recorded sequence is scored again");
+  }
   return ReadStudy(YamlReader::FromText(Get(store.Metadata(), "study"), file.string() + " (study)"),
                    Detectors());
 }
@@ -88,14 +91,16 @@ fs::path PictureFolder(const fs::path& folder, const Cell& cell) {
 }
 
 void WriteResultPictures(const ResultStore& store, const fs::path& file, const fs::path& folder,
-                         int jobs) {
+                         int jobs, std::shared_ptr<DetectorMaker> detectors) {
   const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   std::vector<TrialKey> first;
   for (const TrialKey key : store.FinishedTrials()) {
     if (key.trial == 0) first.push_back(key);
   }
-  const RunOptions options{.jobs = jobs, .keep_artifacts = [](TrialKey) { return true; }};
+  const RunOptions options{.jobs = jobs,
+                           .keep_artifacts = [](TrialKey) { return true; },
+                           .detectors = std::move(detectors)};
   RunTrials(study, cells, first, options, [&](const FinishedTrial& trial) {
     WritePictures(PictureFolder(folder, trial.bench.cell()), trial);
   });

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
+#include "experiments/detector_maker.h"
 #include "experiments/store.h"
 #include "experiments/study.h"
 #include "experiments/summary.h"
@@ -42,6 +44,7 @@ std::filesystem::path PictureFolder(const std::filesystem::path& folder, const C
 
 /// Makes the pictures again by running the first trial of every cell that the store has.
 void WriteResultPictures(const ResultStore& store, const std::filesystem::path& file,
-                         const std::filesystem::path& folder, int jobs);
+                         const std::filesystem::path& folder, int jobs,
+                         std::shared_ptr<DetectorMaker> detectors);
 
 }  // namespace fenestra

@@ -72,8 +72,11 @@ void RunMissing(const StudyRun& run, std::span<const Cell> cells, std::span<cons
                                       .command = run.command});
   TrialWriter writer(store, {.interval = run.store_interval, .on_stored = run.on_stored});
   const auto pictured = [&run](TrialKey key) { return run.pictures && key.trial == 0; };
-  const RunOptions options{
-      .jobs = run.jobs, .keep_artifacts = pictured, .stop = run.stop, .make_bench = run.make_bench};
+  const RunOptions options{.jobs = run.jobs,
+                           .keep_artifacts = pictured,
+                           .stop = run.stop,
+                           .detectors = run.detectors,
+                           .make_bench = run.make_bench};
   RunTrials(run.study, cells, missing, options, [&](const FinishedTrial& trial) {
     // Before the rows: a trial that is stored is not run again.
     if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.bench.cell()), trial);
@@ -89,6 +92,7 @@ StudyResult RunStudy(const StudyRun& run) {
   const std::vector<Cell> cells = Cells(run.study);
   const std::vector<TrialKey> trials = run.shard.Of(AllTrials(cells));
   const std::filesystem::path file = run.out / "results.sqlite";
+  run.detectors->Start(run.study);
   const FolderLock lock(run.out);
 
   std::vector<TrialKey> missing = trials;

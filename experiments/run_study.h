@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "experiments/detector_maker.h"
 #include "experiments/run_trials.h"
 #include "experiments/shard.h"
 #include "experiments/store.h"
@@ -47,7 +49,8 @@ struct StudyRun {
   std::function<void(std::span<const TrialRecord>)> on_stored = [](auto) {};
   /// See RunOptions.
   std::function<bool()> stop = [] { return false; };
-  BenchMaker make_bench = MakeCellBench;
+  std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
+  BenchMaker make_bench = {};  ///< See RunOptions.
 };
 
 struct StudyResult {
@@ -60,6 +63,7 @@ struct StudyResult {
   bool complete() const { return stored == trials; }
 };
 
+/// Throws InputError before anything is written if a detector's program cannot be started.
 StudyResult RunStudy(const StudyRun& run);
 
 }  // namespace fenestra

@@ -11,12 +11,19 @@
 namespace fenestra {
 namespace {
 
+BenchMaker MakerOf(const RunOptions& options) {
+  if (options.make_bench) return options.make_bench;
+  return [detectors = options.detectors](const Study& study, const Cell& cell) {
+    return std::make_shared<const CellBench>(study, cell, detectors);
+  };
+}
+
 // Makes each cell's bench when its first trial starts and drops it after its last one.
 class Benches {
  public:
   Benches(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
-          const BenchMaker& make_bench)
-      : study_(study), cells_(cells), make_bench_(make_bench), slots_(cells.size()) {
+          BenchMaker make_bench)
+      : study_(study), cells_(cells), make_bench_(std::move(make_bench)), slots_(cells.size()) {
     for (const TrialKey& key : trials) ++slots_[static_cast<size_t>(key.cell)].remaining;
   }
 
@@ -44,7 +51,7 @@ class Benches {
 
   const Study& study_;
   std::span<const Cell> cells_;
-  const BenchMaker& make_bench_;
+  BenchMaker make_bench_;
   std::vector<Slot> slots_;
 };
 
@@ -58,10 +65,6 @@ std::vector<TrialKey> AllTrials(std::span<const Cell> cells) {
   return trials;
 }
 
-std::shared_ptr<const TrialBench> MakeCellBench(const Study& study, const Cell& cell) {
-  return std::make_shared<const CellBench>(study, cell);
-}
-
 std::vector<TrialRecord> FinishedTrial::Records() const {
   std::vector<TrialRecord> records;
   for (const Attempt& attempt : attempts) records.push_back(attempt.record);
@@ -71,7 +74,7 @@ std::vector<TrialRecord> FinishedTrial::Records() const {
 void RunTrials(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
                const RunOptions& options, const std::function<void(const FinishedTrial&)>& finish) {
   FENESTRA_CHECK(options.jobs >= 1, "a run needs at least one job");
-  Benches benches(study, cells, trials, options.make_bench);
+  Benches benches(study, cells, trials, MakerOf(options));
   std::atomic<size_t> next = 0;
   std::mutex error_mutex;
   std::exception_ptr first_error;

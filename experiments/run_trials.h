@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "experiments/detector_maker.h"
 #include "experiments/trial_bench.h"
 #include "experiments/trial_key.h"
 
@@ -26,16 +27,14 @@ struct FinishedTrial {
 /// Makes the bench of a cell.
 using BenchMaker = std::function<std::shared_ptr<const TrialBench>(const Study&, const Cell&)>;
 
-/// A CellBench.
-std::shared_ptr<const TrialBench> MakeCellBench(const Study& study, const Cell& cell);
-
 struct RunOptions {
   int jobs = 1;  ///< Trials that run at the same time, at least 1.
   /// Whether detectors shall keep their pictures and clouds in this trial.
   std::function<bool(TrialKey)> keep_artifacts = [](TrialKey) { return false; };
   /// Asked before each trial; true ends the run when the trials that run have finished.
   std::function<bool()> stop = [] { return false; };
-  BenchMaker make_bench = MakeCellBench;
+  std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
+  BenchMaker make_bench = {};  ///< Empty: CellBench, whose detectors `detectors` makes.
 };
 
 /// Runs the trials, in about the order given, each on one thread. `finish` is called once for each,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "experiments/factors.h"
 #include "experiments/trial_settings.h"
 #include "vision/detector_registry.h"
+#include "vision/external/external_command.h"
 
 namespace fenestra {
 
@@ -29,6 +31,16 @@ struct Factor {
   bool operator==(const Factor&) const = default;
 };
 
+/// How a detector runs outside of this process, where a crash or a hang costs it one trial.
+struct DetectorProcess {
+  /// A program of the user's own; empty: this one, which serves a detector that it knows by name.
+  std::vector<std::string> command{};
+  double time_limit_s = ExternalCommand{}.time_limit_s;
+  double start_limit_s = ExternalCommand{}.start_limit_s;
+
+  bool operator==(const DetectorProcess&) const = default;
+};
+
 /// A detector under test with all its options. The label names it in results, where the same
 /// detector may stand several times with different options.
 struct DetectorChoice {
@@ -36,6 +48,7 @@ struct DetectorChoice {
   std::string name;
   SensorKind sensor;
   OptionValues options;
+  std::optional<DetectorProcess> process{};  ///< Absent: in this process.
 
   bool operator==(const DetectorChoice&) const = default;
 };

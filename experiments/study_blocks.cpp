@@ -11,18 +11,6 @@
 namespace fenestra {
 namespace {
 
-std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node) {
-  static const std::vector<std::string> names{ToString(SensorKind::kStereo),
-                                              ToString(SensorKind::kRgbd)};
-  const auto name = reader.Text(node, "a sensor");
-  if (!name) return std::nullopt;
-  if (*name == names[0]) return SensorKind::kStereo;
-  if (*name == names[1]) return SensorKind::kRgbd;
-  reader.AddFault(node,
-                  fmt::format("unknown sensor '{}'. Known: {}.", *name, fmt::join(names, ", ")));
-  return std::nullopt;
-}
-
 std::optional<std::vector<SensorKind>> ReadSensors(YamlReader& reader, const YAML::Node& node) {
   if (!node.IsSequence() || node.size() == 0) {
     reader.AddFault(node, fmt::format("sensors must be a list such as [stereo, rgbd], not {}",
@@ -65,6 +53,18 @@ std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node)
 }
 
 }  // namespace
+
+std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node) {
+  static const std::vector<std::string> names{ToString(SensorKind::kStereo),
+                                              ToString(SensorKind::kRgbd)};
+  const auto name = reader.Text(node, "a sensor");
+  if (!name) return std::nullopt;
+  if (*name == names[0]) return SensorKind::kStereo;
+  if (*name == names[1]) return SensorKind::kRgbd;
+  reader.AddFault(node,
+                  fmt::format("unknown sensor '{}'. Known: {}.", *name, fmt::join(names, ", ")));
+  return std::nullopt;
+}
 
 const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
   const auto found =

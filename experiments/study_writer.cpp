@@ -42,12 +42,31 @@ std::string Text(const Levels& levels) {
   return "[" + text + "]";
 }
 
+std::string Text(const DetectorProcess& process, SensorKind sensor) {
+  std::string text;
+  if (process.command.empty()) {
+    text = "        isolate: true\n";
+  } else {
+    std::string words;
+    for (const std::string& word : process.command) {
+      words += (words.empty() ? "" : ", ") + Quoted(word);
+    }
+    text = fmt::format("        command: [{}]\n        sensor: {}\n", words, ToString(sensor));
+  }
+  return text + fmt::format("        time_limit_s: {}\n        start_limit_s: {}\n",
+                            process.time_limit_s, process.start_limit_s);
+}
+
 std::string Text(const DetectorChoice& detector) {
   std::string text =
-      fmt::format("      - name: {}\n        label: {}\n        options:{}\n", detector.name,
-                  detector.label, detector.options.empty() ? " {}" : "");
+      fmt::format("      - name: {}\n        label: {}\n", detector.name, detector.label);
+  text += detector.process ? Text(*detector.process, detector.sensor) : "        isolate: false\n";
+  text += detector.options.empty() ? "        options: {}\n" : "        options:\n";
+  const bool quoted = detector.process && !detector.process->command.empty();
   for (const auto& [option, value] : detector.options) {
-    text += fmt::format("          {}: {}\n", option, ToString(value));
+    const std::string* word = std::get_if<std::string>(&value);
+    text += fmt::format("          {}: {}\n", option,
+                        quoted && word != nullptr ? Quoted(*word) : ToString(value));
   }
   return text;
 }

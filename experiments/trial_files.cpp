@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
-#include "core/calibration_io.h"
 #include "core/image_io.h"
+#include "core/observation_files.h"
 #include "experiments/pcd.h"
 #include "experiments/trial_drawing.h"
 #include "experiments/truth_exr.h"
@@ -79,22 +79,6 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
     WritePictures(folder / attempt.record.detector, trial.simulated.observation,
                   trial.simulated.calibration, &trial.simulated.truth,
                   estimate ? &*estimate : nullptr, attempt.log);
-  }
-}
-
-void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
-                      const SensorCalibration& calibration) {
-  if (const auto* stereo = std::get_if<StereoObservation>(&observation)) {
-    WritePng(folder / "left.png", stereo->left);
-    WritePng(folder / "right.png", stereo->right);
-    WriteFileAtomically(folder / "calibration.yaml",
-                        ToOpenCvYaml(std::get<StereoCalibration>(calibration)));
-  } else {
-    const auto& rgbd = std::get<RgbdObservation>(observation);
-    WritePng(folder / "color.png", rgbd.color);
-    WritePng(folder / "depth.png", rgbd.depth.raw);
-    WriteFileAtomically(folder / "calibration.yaml",
-                        ToOpenCvYaml(std::get<RgbdCalibration>(calibration)));
   }
 }
 

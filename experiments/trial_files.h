@@ -36,8 +36,4 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
                      const SimulatedTrial& simulated);
 
-/// Writes an observation and its calibration alone.
-void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
-                      const SensorCalibration& calibration);
-
 }  // namespace fenestra

@@ -1,8 +1,7 @@
 #include "vision/detector_registry.h"
 
-#include <functional>
-
 #include "core/check.h"
+#include "core/input_error.h"
 #include "vision/rgbd/paper_rgbd.h"
 #include "vision/rgbd/plane_rgbd.h"
 #include "vision/stereo/edge_stereo.h"
@@ -11,25 +10,13 @@
 namespace fenestra {
 namespace {
 
-using Factory =
-    std::function<std::unique_ptr<Detector>(const SensorCalibration&, const OptionValues&)>;
-
 struct Entry {
   DetectorInfo info;
-  Factory make;
+  DetectorFactory make;
 };
 
-template <typename DetectorType, typename Calibration, typename Options>
-Factory FactoryFor(const ParameterTable<Options>& table) {
-  return [&table](const SensorCalibration& calibration, const OptionValues& values) {
-    Options options;
-    for (const auto& [name, value] : values) table.Set(options, name, value);
-    return std::make_unique<DetectorType>(std::get<Calibration>(calibration), options);
-  };
-}
-
-const std::vector<Entry>& Entries() {
-  static const std::vector<Entry> entries = {
+std::vector<Entry> BuiltIn() {
+  return {
       {{.name = "paper-stereo",
         .sensor = SensorKind::kStereo,
         .description = "Zhou et al. 2013, section 3: block matching, gap closing, Canny",
@@ -51,18 +38,43 @@ const std::vector<Entry>& Entries() {
         .options = PlaneRgbdParameters().infos()},
        FactoryFor<PlaneRgbdDetector, RgbdCalibration>(PlaneRgbdParameters())},
   };
-  return entries;
+}
+
+struct Registry {
+  std::vector<Entry> entries = BuiltIn();
+  std::vector<DetectorInfo> infos;
+
+  Registry() {
+    for (const Entry& entry : entries) infos.push_back(entry.info);
+  }
+};
+
+// What is registered stays: the one thing here that outlives its callers.
+Registry& TheRegistry() {
+  static Registry registry;
+  return registry;
 }
 
 }  // namespace
 
 const std::vector<DetectorInfo>& Detectors() {
-  static const std::vector<DetectorInfo> infos = [] {
-    std::vector<DetectorInfo> all;
-    for (const Entry& entry : Entries()) all.push_back(entry.info);
-    return all;
-  }();
-  return infos;
+  return TheRegistry().infos;
+}
+
+bool IsDetectorName(const std::string& name) {
+  return !name.empty() && name.size() <= 64 &&
+         name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string::npos;
+}
+
+void RegisterDetector(const DetectorInfo& info, const DetectorFactory& make) {
+  if (!IsDetectorName(info.name)) {
+    throw InputError(info.name, "is no name of a detector: 1 to 64 of the characters a-z 0-9 _ -");
+  }
+  if (FindDetector(info.name) != nullptr) {
+    throw InputError(info.name, "there is a detector of that name already");
+  }
+  TheRegistry().entries.push_back({info, make});
+  TheRegistry().infos.push_back(info);
 }
 
 const DetectorInfo* FindDetector(const std::string& name) {
@@ -75,7 +87,7 @@ const DetectorInfo* FindDetector(const std::string& name) {
 std::unique_ptr<Detector> MakeDetector(const std::string& name,
                                        const SensorCalibration& calibration,
                                        const OptionValues& options) {
-  for (const Entry& entry : Entries()) {
+  for (const Entry& entry : TheRegistry().entries) {
     if (entry.info.name == name) return entry.make(calibration, options);
   }
   FENESTRA_CHECK(false, "no detector named " + name);

@@ -1,28 +1,23 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/detector.h"
-#include "core/parameter_table.h"
+#include "vision/detector_info.h"
 
 namespace fenestra {
 
-/// A detector that can be asked for by name.
-struct DetectorInfo {
-  std::string name;  ///< "paper-stereo"
-  SensorKind sensor;
-  std::string description;  ///< One line.
-  std::vector<ParameterInfo> options;
-};
-
-using OptionValues = std::map<std::string, ParameterValue>;
-
 /// All detectors, in the order in which lists show them.
 const std::vector<DetectorInfo>& Detectors();
+
+/// Adds a detector of another's own (plugin_loader.h does, and so may a program that links this
+/// library). Call it before detectors are used, from one thread. Throws InputError if the name is
+/// taken or none (IsDetectorName).
+void RegisterDetector(const DetectorInfo& info, const DetectorFactory& make);
+
+/// 1 to 64 of the characters a-z 0-9 _ -: names become labels, folder names and table columns.
+bool IsDetectorName(const std::string& name);
 
 /// nullptr if there is no detector of that name.
 const DetectorInfo* FindDetector(const std::string& name);

@@ -2,21 +2,16 @@
 
 #include <filesystem>
 #include <memory>
-#include <optional>
-#include <thread>
+#include <stdexcept>
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
 #include "experiments/bounds/check_report.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/interrupt.h"
-#include "experiments/cli/progress.h"
+#include "experiments/cli/study_run_arguments.h"
 #include "experiments/result_files.h"
-#include "experiments/run_study.h"
 #include "experiments/store.h"
 #include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
-#include "vision/detector_registry.h"
 
 namespace fenestra::cli {
 namespace {
@@ -27,9 +22,7 @@ struct CheckArguments {
   fs::path bounds;
   fs::path results;
   fs::path baseline;
-  fs::path out;
-  std::optional<int> trials;
-  int jobs = 0;  ///< 0: as many as there are processors.
+  StudyRunArguments run;
   fs::path junit;
   fs::path markdown;
   bool strict = false;
@@ -50,22 +43,8 @@ fs::path Run(const CheckArguments& arguments, const BoundFile& file) {
   if (file.study.empty()) {
     throw InputError(arguments.bounds, "names no study to run; give --results DIR");
   }
-  YamlReader reader = YamlReader::FromFile(StudyFile(arguments.bounds, file.study));
-  StudyRun run{.study = ReadStudy(reader, Detectors()),
-               .study_text = reader.text(),
-               .out = arguments.out,
-               .jobs = arguments.jobs};
-  if (arguments.trials) {
-    for (StudyPart& part : run.study.parts) part.repetitions = *arguments.trials;
-  }
-  if (run.out.empty()) run.out = fs::path("results") / run.study.name;
-  if (run.jobs == 0) run.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const InterruptWatch watch;
-  Progress progress(Progress::ForStandardError());
-  run.on_start = [&progress](const RunStart& start) { progress.Start(start); };
-  run.on_stored = [&progress](std::span<const TrialRecord> rows) { progress.Add(rows); };
-  run.stop = [&watch] { return watch.requested(); };
-  if (!RunStudy(run).complete()) {
+  const StudyRun run = MakeStudyRun(StudyFile(arguments.bounds, file.study), arguments.run);
+  if (!RunWithProgress(run).complete()) {
     throw std::runtime_error("interrupted; the same command goes on from there");
   }
   return run.out;
@@ -109,13 +88,9 @@ void AddCheckCommand(CLI::App& program, int& exit_code) {
                                              "Results to check; else the study is run");
   command->add_option("--baseline", arguments->baseline,
                       "Results of the same study to compare with, trial by trial");
-  command->add_option("--out", arguments->out, "Results folder of the run")->excludes(results);
-  command->add_option("--trials", arguments->trials, "Trials of each cell, instead of the study's")
-      ->check(CLI::Range(1, 1000000))
-      ->excludes(results);
-  command->add_option("--jobs", arguments->jobs, "Trials at the same time; default: all processors")
-      ->check(CLI::Range(1, 1024))
-      ->excludes(results);
+  for (CLI::Option* option : AddStudyRunOptions(*command, arguments->run)) {
+    option->excludes(results);
+  }
   command->add_option("--junit", arguments->junit, "Write JUnit XML to this file");
   command->add_option("--markdown", arguments->markdown,
                       "Write a comment for a pull request to this file");

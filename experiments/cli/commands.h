@@ -30,6 +30,8 @@ void AddCalibrateCommand(CLI::App& program, int& exit_code);
 void AddEmvaCommand(CLI::App& program, int& exit_code);
 void AddCheckCommand(CLI::App& program, int& exit_code);
 void AddDepthCommand(CLI::App& program, int& exit_code);
+void AddScoreCommand(CLI::App& program, int& exit_code);
+void AddServeCommand(CLI::App& program, int& exit_code);
 void AddRatiosCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);
 

@@ -1,23 +1,20 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "core/calibration_io.h"
-#include "core/did_you_mean.h"
+#include "core/detection_json.h"
 #include "core/image_io.h"
-#include "core/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/detection_json.h"
+#include "experiments/cli/detector_arguments.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/trial_files.h"
-#include "vision/detector_registry.h"
 
 namespace fenestra::cli {
 namespace {
 
 struct DetectArguments {
-  std::string detector;
-  std::vector<std::string> options;  ///< "name=value"
+  DetectorArguments detector;
   std::filesystem::path calibration;
   std::filesystem::path left, right;   ///< Stereo.
   std::filesystem::path color, depth;  ///< RGB-D.
@@ -26,43 +23,10 @@ struct DetectArguments {
   std::filesystem::path pictures;
 };
 
-OptionValues ParseOptions(const DetectorInfo& detector, const std::vector<std::string>& options) {
-  OptionValues values;
-  std::vector<std::string> known;
-  for (const ParameterInfo& info : detector.options) known.push_back(info.name);
-  for (const std::string& option : options) {
-    const size_t equals = option.find('=');
-    const std::string name = option.substr(0, equals);
-    const auto info = std::find_if(detector.options.begin(), detector.options.end(),
-                                   [&name](const ParameterInfo& i) { return i.name == name; });
-    if (equals == std::string::npos || info == detector.options.end()) {
-      throw InputError("--option", fmt::format("'{}' is not NAME=VALUE with an option of {}.{}",
-                                               option, detector.name, DidYouMean(name, known)));
-    }
-    YamlReader reader = YamlReader::FromText(option.substr(equals + 1), "--option " + name);
-    const auto value = info->Read(reader, reader.root());
-    reader.ThrowIfFaulty();
-    values[name] = *value;
-  }
-  return values;
-}
-
-const DetectorInfo& DetectorFor(const std::string& name, SensorKind sensor) {
-  const DetectorInfo* info = FindDetector(name);
-  if (info != nullptr && info->sensor == sensor) return *info;
-  std::vector<std::string> names;
-  for (const DetectorInfo& detector : Detectors()) {
-    if (detector.sensor == sensor) names.push_back(detector.name);
-  }
-  throw InputError("--detector",
-                   fmt::format("there is no {} detector '{}'.{} Known: {}.", ToString(sensor), name,
-                               DidYouMean(name, names), fmt::join(names, ", ")));
-}
-
 void Detect(const DetectArguments& arguments, const Observation& observation,
             const SensorCalibration& calibration, SensorKind sensor) {
-  const DetectorInfo& info = DetectorFor(arguments.detector, sensor);
-  const auto detector = MakeDetector(info.name, calibration, ParseOptions(info, arguments.options));
+  const DetectorChoice choice = ChooseDetector(arguments.detector, sensor);
+  const auto detector = MakerWith(arguments.detector.plugins)->Make(choice, calibration);
   StageLog log(SteadyClock(), !arguments.pictures.empty());
   const Detection detection = detector->Detect(observation, log);
   log.End();
@@ -70,8 +34,8 @@ void Detect(const DetectArguments& arguments, const Observation& observation,
     WritePictures(arguments.pictures, observation, calibration, nullptr,
                   std::get_if<WindowEstimate>(&detection), log);
   }
-  fmt::print("{}", arguments.json ? DetectionJson(info.name, detection, log)
-                                  : DetectionText(info.name, detection, log));
+  fmt::print("{}", arguments.json ? DetectionJson(choice.label, detection, log)
+                                  : DetectionText(choice.label, detection, log));
 }
 
 void DetectStereo(const DetectArguments& arguments) {
@@ -91,12 +55,9 @@ void DetectRgbd(const DetectArguments& arguments) {
 
 void AddCommonOptions(CLI::App& command, DetectArguments& arguments,
                       const std::string& default_detector) {
-  arguments.detector = default_detector;
+  arguments.detector.detector = default_detector;
   command.add_option("--calibration", arguments.calibration, "Calibration file (YAML)")->required();
-  command.add_option("--detector", arguments.detector, "Name of the detector")
-      ->capture_default_str();
-  command.add_option("--option", arguments.options,
-                     "NAME=VALUE of the detector; may be given several times");
+  AddDetectorOptions(command, arguments.detector);
   command.add_flag("--json", arguments.json, "Print JSON");
   command.add_option("--pictures", arguments.pictures, "Folder for the pictures of every stage");
 }
@@ -108,7 +69,9 @@ void AddDetectCommand(CLI::App& program, int& exit_code) {
   detect->require_subcommand(1);
   detect->footer(
       "Example:\n"
-      "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml --json");
+      "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml --json\n"
+      "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml "
+      "--command '[python3, mine.py]'");
 
   CLI::App* stereo = detect->add_subcommand("stereo", "On a pair of grey images");
   const auto stereo_arguments = std::make_shared<DetectArguments>();

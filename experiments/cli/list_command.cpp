@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/factors.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
@@ -50,7 +51,12 @@ void AddListCommand(CLI::App& program, int& exit_code) {
       "Example:\n"
       "  fenestra list factors | grep window");
   list->require_subcommand(1);
-  list->add_subcommand("detectors", "All detectors and their options with defaults")->callback([] {
+  CLI::App* detectors =
+      list->add_subcommand("detectors", "All detectors and their options with defaults");
+  const auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
+  AddPluginOption(*detectors, *plugins);
+  detectors->callback([plugins] {
+    LoadPlugins(*plugins);
     ListDetectors();
   });
   list->add_subcommand("factors", "All that a study can vary, with defaults")->callback([] {

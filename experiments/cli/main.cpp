@@ -96,6 +96,8 @@ int Main(int argc, char** argv) {
   AddCalibrateCommand(program, exit_code);
   AddEmvaCommand(program, exit_code);
   AddDepthCommand(program, exit_code);
+  AddScoreCommand(program, exit_code);
+  AddServeCommand(program, exit_code);
   AddRatiosCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {

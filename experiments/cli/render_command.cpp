@@ -1,12 +1,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <numbers>
+#include <optional>
 
 #include "core/input_error.h"
 #include "experiments/cell_bench.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/scene_files.h"
+#include "experiments/sequence_writer.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
 #include "experiments/trial_files.h"
@@ -21,6 +25,8 @@ struct RenderArguments {
   std::string what;
   int cell = 0;
   int trial = 0;
+  std::optional<SensorKind> sequence;  ///< All trials of this sensor.
+  std::vector<std::filesystem::path> plugins;
   std::filesystem::path out;
 
   std::optional<std::string> target;
@@ -37,7 +43,14 @@ bool IsSceneFile(const std::filesystem::path& file) {
 }
 
 void RenderTrial(const RenderArguments& arguments) {
+  LoadPlugins(arguments.plugins);
   const Study study = ReadStudyFile(FindStudy(arguments.what), Detectors());
+  if (arguments.sequence) {
+    const int frames = WriteSequence(arguments.out, study, *arguments.sequence);
+    fmt::print("{} trials of '{}' are in {}\n", frames, study.name,
+               (arguments.out / "sequence.yaml").string());
+    return;
+  }
   const Cell cell = CellOf(study, arguments.cell);
   if (arguments.trial < 0) {
     throw InputError("--trial", fmt::format("must not be negative, but is {}", arguments.trial));
@@ -114,6 +127,12 @@ void AddRenderCommand(CLI::App& program, int& exit_code) {
   command->add_option("--cell", arguments->cell, "Index of the study's cell")
       ->capture_default_str();
   command->add_option("--trial", arguments->trial, "Index of the trial")->capture_default_str();
+  command
+      ->add_option("--sequence", arguments->sequence,
+                   "Every trial of this sensor, as a sequence that 'score' reads")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, SensorKind>{
+          {"stereo", SensorKind::kStereo}, {"rgbd", SensorKind::kRgbd}}));
+  AddPluginOption(*command, arguments->plugins);
   command->add_option("--out", arguments->out, "Folder for the files")->required();
   AddSceneOptions(*command, *arguments);
   command->callback([arguments, &exit_code] {

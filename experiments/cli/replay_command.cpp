@@ -6,6 +6,7 @@
 
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/replay.h"
 
 namespace fenestra::cli {
@@ -15,6 +16,7 @@ struct ReplayArguments {
   std::filesystem::path results;
   std::string trial;  ///< "CELL/TRIAL"
   std::filesystem::path out;
+  std::vector<std::filesystem::path> plugins;
 };
 
 struct CellAndTrial {
@@ -47,9 +49,10 @@ std::string Describe(const Score& score) {
 
 int Replay(const ReplayArguments& arguments) {
   const CellAndTrial key = ParseTrial(arguments.trial);
+  LoadPlugins(arguments.plugins);
   bool same = true;
-  for (const ReplayedRow& row :
-       fenestra::Replay(arguments.results, key.cell, key.trial, arguments.out)) {
+  for (const ReplayedRow& row : fenestra::Replay(arguments.results, key.cell, key.trial,
+                                                 arguments.out, MakerWith(arguments.plugins))) {
     fmt::print("{}/{} {}: {}\n", key.cell, key.trial, row.recorded.detector,
                Describe(row.repeated.score));
     for (const auto& [name, value] : row.recorded.levels) {
@@ -87,6 +90,7 @@ void AddReplayCommand(CLI::App& program, int& exit_code) {
       ->required();
   command->add_option("CELL/TRIAL", arguments->trial, "Which trial, for example 7/3")->required();
   command->add_option("--out", arguments->out, "Folder for pictures and files");
+  AddPluginOption(*command, arguments->plugins);
   command->callback([arguments, &exit_code] { exit_code = Replay(*arguments); });
 }
 

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/cli/print_result.h"
 #include "experiments/result_files.h"
 
@@ -13,14 +14,18 @@ struct ReportArguments {
   std::filesystem::path out;
   bool pictures = false;
   int jobs = 1;
+  std::vector<std::filesystem::path> plugins;
 };
 
 void Report(const ReportArguments& arguments) {
+  LoadPlugins(arguments.plugins);
   const std::filesystem::path file = StoreFile(arguments.results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
   const std::filesystem::path out = arguments.out.empty() ? file.parent_path() : arguments.out;
   const std::vector<CellSummary> summaries = WriteResultFiles(store, out);
-  if (arguments.pictures) WriteResultPictures(store, file, out, arguments.jobs);
+  if (arguments.pictures) {
+    WriteResultPictures(store, file, out, arguments.jobs, MakerWith(arguments.plugins));
+  }
   PrintResult(summaries, out);
 }
 
@@ -41,6 +46,7 @@ void AddReportCommand(CLI::App& program, int& exit_code) {
                     "Runs the first trial of each cell again for its pictures");
   command->add_option("--jobs", arguments->jobs, "Trials at the same time, for the pictures")
       ->check(CLI::Range(1, 1024));
+  AddPluginOption(*command, arguments->plugins);
   command->callback([arguments, &exit_code] {
     Report(*arguments);
     exit_code = kDone;

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/calibration_io.h"
-#include "core/image_io.h"
+#include "core/observation_files.h"
 #include "experiments/cell_bench.h"
 #include "experiments/scoring.h"
 #include "experiments/study_reader.h"
@@ -54,23 +53,6 @@ Detection Detect(const DetectorChoice& choice, const SensorCalibration& calibrat
   return MakeDetector(choice.name, calibration, choice.options)->Detect(observation, log);
 }
 
-struct FromFiles {
-  SensorCalibration calibration;
-  Observation observation;
-};
-
-FromFiles ReadBack(const std::filesystem::path& folder, SensorKind sensor) {
-  if (sensor == SensorKind::kStereo) {
-    return {
-        ReadStereoCalibration(folder / "calibration.yaml"),
-        StereoObservation{ReadGrayImage(folder / "left.png"), ReadGrayImage(folder / "right.png")}};
-  }
-  const RgbdCalibration calibration = ReadRgbdCalibration(folder / "calibration.yaml");
-  return {calibration,
-          RgbdObservation{ReadColorImage(folder / "color.png"),
-                          {ReadDepthImage(folder / "depth.png"), calibration.depth_unit_m}}};
-}
-
 TEST(WallTest, EstimatesFromFilesAreThoseInProcess) {
   const Study study = SmallStudy();
   for (const Cell& cell : Cells(study)) {
@@ -78,7 +60,8 @@ TEST(WallTest, EstimatesFromFilesAreThoseInProcess) {
     const SimulatedTrial simulated = bench.Simulate(0);
     const TemporaryFolder folder;
     WriteObservation(folder.path(), simulated.observation, simulated.calibration);
-    const FromFiles files = ReadBack(folder.path(), cell.sensor);
+    const RecordedObservation files =
+        ReadObservation(ObservationFiles::In(folder.path(), cell.sensor));
     for (const DetectorChoice& choice : bench.detectors()) {
       const Detection in_process = Detect(choice, simulated.calibration, simulated.observation);
       EXPECT_TRUE(std::holds_alternative<WindowEstimate>(in_process)) << choice.name;

@@ -28,7 +28,8 @@ constexpr const char* kStudy =
 TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
   for (const char* command :
        {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd", "list", "export",
-        "calibrate", "calibrate stereo", "emva", "depth", "bound", "merge", "submit", "report"}) {
+        "calibrate", "calibrate stereo", "emva", "depth", "bound", "merge", "submit", "report",
+        "score", "serve"}) {
     const Outcome outcome = Fenestra(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiments/study.h"
+
+namespace fenestra::cli {
+
+/// A detector as the command line names it.
+struct DetectorArguments {
+  std::string detector;
+  std::vector<std::string> options;  ///< "name=value"
+  std::string command;               ///< "[python3, mine.py]", or a program without arguments.
+  bool isolate = false;
+  std::optional<double> time_limit_s;
+  std::vector<std::filesystem::path> plugins;
+};
+
+/// --detector, --option, --command, --isolate, --time-limit-s, --plugin.
+void AddDetectorOptions(CLI::App& command, DetectorArguments& arguments);
+
+/// Loads the plugins and finds the detector. Throws InputError for what does not exist, does not
+/// work on the sensor or has no such option.
+DetectorChoice ChooseDetector(const DetectorArguments& arguments, SensorKind sensor);
+
+}  // namespace fenestra::cli

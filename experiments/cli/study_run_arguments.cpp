@@ -1,0 +1,77 @@
+#include "experiments/cli/study_run_arguments.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "core/input_error.h"
+#include "experiments/cli/interrupt.h"
+#include "experiments/cli/plugins.h"
+#include "experiments/cli/progress.h"
+#include "experiments/study_reader.h"
+#include "experiments/versions.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+int AllProcessors() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
+
+void CheckSize(const Study& study) {
+  if (CountTrials(study) <= kMostTrials) return;
+  throw InputError("--trials", fmt::format("makes {} trials in all; at most {} are run",
+                                           CountTrials(study), kMostTrials));
+}
+
+}  // namespace
+
+void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments) {
+  command.add_option("--seed", arguments.seed, "Instead of the study's seed")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{INT64_MAX}));
+  command.add_option("--trials", arguments.trials, "Trials of each cell, instead of the study's")
+      ->check(CLI::Range(1, 1000000));
+  AddPluginOption(command, arguments.plugins);
+}
+
+std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments) {
+  CLI::Option* out =
+      command.add_option("--out", arguments.out, "Results folder; default: results/<study>");
+  CLI::Option* jobs =
+      command
+          .add_option("--jobs", arguments.jobs, "Trials at the same time; default: all processors")
+          ->check(CLI::Range(1, 1024));
+  AddStudyOptions(command, arguments);
+  return {out, jobs, command.get_option("--seed"), command.get_option("--trials")};
+}
+
+StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArguments& arguments) {
+  LoadPlugins(arguments.plugins);
+  YamlReader reader = YamlReader::FromFile(study_file);
+  StudyRun run{.study = ReadStudy(reader, Detectors()),
+               .study_text = reader.text(),
+               .out = arguments.out,
+               .jobs = arguments.jobs == 0 ? AllProcessors() : arguments.jobs,
+               .command = CommandLine(),
+               .detectors = MakerWith(arguments.plugins)};
+  if (arguments.seed) run.study.seed = *arguments.seed;
+  if (arguments.trials) {
+    for (StudyPart& part : run.study.parts) part.repetitions = *arguments.trials;
+  }
+  CheckSize(run.study);
+  if (run.out.empty()) run.out = std::filesystem::path("results") / run.study.name;
+  return run;
+}
+
+StudyResult RunWithProgress(StudyRun run) {
+  const InterruptWatch watch;
+  Progress progress(Progress::ForStandardError());
+  run.on_start = [&progress](const RunStart& start) { progress.Start(start); };
+  run.on_stored = [&progress](std::span<const TrialRecord> rows) { progress.Add(rows); };
+  run.stop = [&watch] { return watch.requested(); };
+  return RunStudy(run);
+}
+
+}  // namespace fenestra::cli

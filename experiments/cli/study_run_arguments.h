@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "experiments/run_study.h"
+
+namespace fenestra::cli {
+
+/// What a user may say of any run of a study, whichever command starts it.
+struct StudyRunArguments {
+  std::filesystem::path out;
+  int jobs = 0;  ///< 0: as many as there are processors.
+  std::optional<uint64_t> seed;
+  std::optional<int> trials;
+  std::vector<std::filesystem::path> plugins;
+};
+
+/// --seed and --trials, which change the study; --plugin.
+void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments);
+/// These and --out, --jobs. Returns all that make no sense without a run.
+std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments);
+
+/// Loads the plugins and reads the study. Throws InputError.
+StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArguments& arguments);
+
+/// Shows the progress on standard error; Ctrl-C ends the run with what is done stored.
+StudyResult RunWithProgress(StudyRun run);
+
+}  // namespace fenestra::cli

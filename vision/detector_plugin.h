@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <opencv2/core/version.hpp>
+#include <string>
+
+#include "core/calibration.h"
+#include "core/detector.h"
+#include "core/parameter_table.h"
+#include "vision/detector_info.h"
+
+/// Detectors in shared libraries. A library that calls, once, outside of any function,
+///
+///     FENESTRA_DETECTOR_PLUGIN(Register)
+///
+/// with a function of the form
+///
+///     void Register(fenestra::DetectorRegistrar& registrar);
+///
+/// can be named with --plugin; examples/plugin is a whole one. It must be built by the compiler and
+/// against the headers and libraries that the program was built with: C++ objects go to and fro.
+/// PluginInterface() says which these were, and a library with another one is refused.
+
+namespace fenestra {
+
+/// Where a plugin's detectors are registered.
+class DetectorRegistrar {
+ public:
+  virtual ~DetectorRegistrar() = default;
+  /// The name is [a-z0-9_-]+, at most 64 of them, and no other detector's.
+  virtual void Add(const DetectorInfo& info, const DetectorFactory& make) = 0;
+};
+
+/// Counts up with every change to what a plugin and the program share that the sizes below do not
+/// show.
+inline constexpr int kPluginInterfaceVersion = 1;
+
+/// Everything that must be the same on both sides, as text.
+inline std::string PluginInterface() {
+  const auto sizes = [](auto... size) { return (std::to_string(size) + ...); };
+  return "Fenestra plugin interface " + std::to_string(kPluginInterfaceVersion) + ", compiler " +
+         __VERSION__ + ", C++ ABI " + std::to_string(__GXX_ABI_VERSION) + ", string ABI " +
+         std::to_string(_GLIBCXX_USE_CXX11_ABI) + ", Eigen " + std::to_string(EIGEN_WORLD_VERSION) +
+         "." + std::to_string(EIGEN_MAJOR_VERSION) + "." + std::to_string(EIGEN_MINOR_VERSION) +
+         " aligned to " + std::to_string(EIGEN_MAX_ALIGN_BYTES) + ", OpenCV " + CV_VERSION +
+         ", sizes " +
+         sizes(sizeof(WindowEstimate), sizeof(Miss), sizeof(Observation), sizeof(SensorCalibration),
+               sizeof(StageLog), sizeof(DetectorInfo), sizeof(ParameterInfo));
+}
+
+}  // namespace fenestra
+
+#define FENESTRA_DETECTOR_PLUGIN(register_function)                                           \
+  extern "C" __attribute__((visibility("default"))) const char* fenestra_plugin_interface() { \
+    static const std::string text = ::fenestra::PluginInterface();                            \
+    return text.c_str();                                                                      \
+  }                                                                                           \
+  extern "C" __attribute__((visibility("default"))) void fenestra_plugin_register(            \
+      ::fenestra::DetectorRegistrar& registrar) {                                             \
+    register_function(registrar);                                                             \
+  }

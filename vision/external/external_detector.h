@@ -1,0 +1,50 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/calibration.h"
+#include "core/detector.h"
+#include "vision/external/detector_program.h"
+
+namespace fenestra {
+
+/// Programs of one command that are kept running, as many as are asked at the same time.
+/// Thread-safe.
+class ProgramPool {
+ public:
+  explicit ProgramPool(ExternalCommand command) : command_(std::move(command)) {}
+
+  const ExternalCommand& command() const { return command_; }
+
+  /// Starts the first program, if none is running. Throws InputError (DetectorProgram).
+  void Start();
+  /// Asks a program that is idle, or a new one, and keeps it if it is still running afterwards.
+  /// Throws DetectorFailure: what DetectorProgram::Ask throws, or "start" where none can be
+  /// started.
+  TimedDetection Ask(const Observation& observation, const SensorCalibration& calibration);
+
+ private:
+  std::unique_ptr<DetectorProgram> Take();
+
+  ExternalCommand command_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<DetectorProgram>> idle_;
+};
+
+/// A detector that is a program of its own.
+class ExternalDetector : public Detector {
+ public:
+  /// The calibration's sensor must be the command's.
+  ExternalDetector(std::shared_ptr<ProgramPool> pool, SensorCalibration calibration);
+
+  SensorKind sensor() const override { return pool_->command().sensor; }
+  Detection Detect(const Observation& observation, StageLog& log) const override;
+
+ private:
+  std::shared_ptr<ProgramPool> pool_;
+  SensorCalibration calibration_;
+};
+
+}  // namespace fenestra
