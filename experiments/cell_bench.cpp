@@ -137,6 +137,21 @@ std::optional<DepthFrame> CellBench::DepthOf(const SimulatedTrial& simulated) co
                               simulated.trial.streams.shot);
 }
 
+TrueSensor CellBench::SensorOf(const SimulatedTrial& simulated) const {
+  const auto instrument = InstrumentOf(simulated.trial);
+  const auto sensor = [&](const SensorCalibration& cameras, const Pose& X_BC,
+                          const RigMotion& motion) -> TrueSensor {
+    const Eigen::Matrix3d R_WB = (simulated.truth.X_WC * X_BC.inverse()).rotation();
+    const Eigen::Vector3d turning_B = motion.angular_velocity_B.cross(X_BC.translation());
+    return {.cameras = cameras, .velocity_W = R_WB * (motion.velocity_B + turning_B)};
+  };
+  if (const auto* rig = std::get_if<StereoRig>(&instrument->sensor)) {
+    return sensor(rig->cameras(), rig->X_BL(), rig->options().motion);
+  }
+  const auto& rgbd = std::get<StructuredLightSensor>(instrument->sensor);
+  return sensor(rgbd.nominal(), rgbd.X_WD(Pose()), rgbd.options().motion);
+}
+
 TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {
   const TrialSettings& settings = simulated.trial.settings;
   const auto world = WorldOf(settings);

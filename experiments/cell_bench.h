@@ -28,6 +28,7 @@ class CellBench final : public TrialBench {
   const std::vector<DetectorChoice>& detectors() const override { return detector_choices_; }
   SimulatedTrial Simulate(int trial_index) const override;
   Attempt Try(size_t detector, const SimulatedTrial& simulated, bool keep_artifacts) const override;
+  TrueSensor SensorOf(const SimulatedTrial& simulated) const override;
   TruthImages TruthOf(const SimulatedTrial& simulated) const override;
   std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const override;
 

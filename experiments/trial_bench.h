@@ -24,6 +24,12 @@ struct SimulatedTrial {
   std::optional<TrialInformation> information{};
 };
 
+/// The sensor of a trial as it truly is, of which a calibration tells.
+struct TrueSensor {
+  SensorCalibration cameras;
+  Eigen::Vector3d velocity_W;  ///< Of the scored camera's origin, in the world [m/s].
+};
+
 /// One detector's attempt at a simulated trial.
 struct Attempt {
   TrialRecord record;
@@ -46,6 +52,8 @@ class TrialBench {
   /// crashed.
   virtual Attempt Try(size_t detector, const SimulatedTrial& simulated,
                       bool keep_artifacts) const = 0;
+
+  virtual TrueSensor SensorOf(const SimulatedTrial& simulated) const = 0;
 
   /// Per-pixel truth of the left (stereo) or depth camera.
   virtual TruthImages TruthOf(const SimulatedTrial& simulated) const = 0;

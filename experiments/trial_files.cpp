@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
+#include "core/calibration_io.h"
 #include "core/image_io.h"
 #include "core/observation_files.h"
+#include "experiments/frame_visibility.h"
 #include "experiments/pcd.h"
 #include "experiments/trial_drawing.h"
 #include "experiments/truth_exr.h"
@@ -36,6 +38,18 @@ cv::Mat1f ToMetres(const DepthImage& depth) {
 const CameraModel& ScoredCamera(const SensorCalibration& calibration) {
   const auto* stereo = std::get_if<StereoCalibration>(&calibration);
   return stereo != nullptr ? stereo->left : std::get<RgbdCalibration>(calibration).depth;
+}
+
+// As they truly are, the scored one first.
+std::array<NamedCamera, 2> CamerasOf(const SensorCalibration& sensor, const GroundTruth& truth) {
+  const Pose& X_WC = truth.X_WC;
+  if (const auto* stereo = std::get_if<StereoCalibration>(&sensor)) {
+    return {NamedCamera{"left", stereo->left, X_WC},
+            NamedCamera{"right", stereo->right, X_WC * stereo->X_RL.inverse()}};
+  }
+  const auto& rgbd = std::get<RgbdCalibration>(sensor);
+  return {NamedCamera{"depth", rgbd.depth, X_WC},
+          NamedCamera{"color", rgbd.color, X_WC * rgbd.X_KD.inverse()}};
 }
 
 std::string FactorYaml(const TrialSettings& settings) {
@@ -82,28 +96,45 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
   }
 }
 
-void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
-                     const SimulatedTrial& simulated) {
+void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedTrial& simulated) {
   WriteObservation(folder, simulated.observation, simulated.calibration);
   if (const auto* rgbd = std::get_if<RgbdObservation>(&simulated.observation)) {
     const CameraModel& camera = ScoredCamera(simulated.calibration);
     WriteFileAtomically(folder / "cloud.pcd", ToPcd(CloudOf(ToMetres(rgbd->depth), camera)));
   }
-  const std::filesystem::path truth = folder / "truth";
+}
+
+void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& bench,
+                     const SimulatedTrial& simulated) {
   const TruthImages images = bench.TruthOf(simulated);
-  const bool stereo = std::holds_alternative<StereoCalibration>(simulated.calibration);
+  const SensorCalibration sensor = bench.SensorOf(simulated).cameras;
+  const bool stereo = std::holds_alternative<StereoCalibration>(sensor);
   if (const std::optional<DepthFrame> depth = bench.DepthOf(simulated)) {
-    WritePng(truth / "no_return.png", DrawNoReturn(depth->no_return));
+    WritePng(folder / "no_return.png", DrawNoReturn(depth->no_return));
     // Ten bits at the upper end of sixteen, so that a viewer shows them.
     constexpr double kToSixteenBits = 64.0;
     if (!depth->infrared.empty()) {
-      WritePng(truth / "infrared.png", cv::Mat1w(depth->infrared * kToSixteenBits));
+      WritePng(folder / "infrared.png", cv::Mat1w(depth->infrared * kToSixteenBits));
     }
   }
-  WriteFileAtomically(truth / "truth.json", TruthJson(simulated.truth, stereo ? "left" : "depth"));
-  WriteTruthExr(truth / "truth.exr", images, stereo ? "right" : "projector");
-  WriteFileAtomically(truth / "cloud.pcd", ToPcd(CloudOf(images.aovs.depth_m, images.camera)));
-  WriteFileAtomically(truth / "trial.yaml", FactorYaml(simulated.trial.settings));
+  const GroundTruth& truth = simulated.truth;
+  std::optional<double> visible;
+  if (truth.target) {
+    visible =
+        VisibleShare(images, *truth.target, simulated.trial.settings.facade.window.frame_width_m);
+  }
+  WriteFileAtomically(folder / "truth.json", TruthJson(truth, CamerasOf(sensor, truth), visible));
+  WriteFileAtomically(folder / "calibration.yaml",
+                      std::visit([](const auto& told) { return ToOpenCvYaml(told); }, sensor));
+  WriteTruthExr(folder / "truth.exr", images, stereo ? "right" : "projector");
+  WriteFileAtomically(folder / "cloud.pcd", ToPcd(CloudOf(images.aovs.depth_m, images.camera)));
+  WriteFileAtomically(folder / "trial.yaml", FactorYaml(simulated.trial.settings));
+}
+
+void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
+                     const SimulatedTrial& simulated) {
+  WriteObservationFiles(folder, simulated);
+  WriteTruthFiles(folder / "truth", bench, simulated);
 }
 
 }  // namespace fenestra

@@ -29,11 +29,19 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 ///
 /// and into the folder `truth` what no detector may see:
 ///
-///     truth.json    poses and the window's centroid, corners and normal in the scored camera
-///     truth.exr     per pixel: radiance, depth, normal, ids, light, visibility, disparity
-///     cloud.pcd     the true surface in the scored camera's frame
-///     trial.yaml    every factor's value in this trial
+///     truth.json        poses and the window's centroid, corners and normal in the scored camera
+///     calibration.yaml  the true cameras
+///     truth.exr         per pixel: radiance, depth, normal, ids, light, visibility, disparity
+///     cloud.pcd         the true surface in the scored camera's frame
+///     no_return.png     why depth pixels have no return (RGB-D)
+///     infrared.png      what the infra-red camera sees (RGB-D by matching)
+///     trial.yaml        every factor's value in this trial
 void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
+                     const SimulatedTrial& simulated);
+
+/// The first and the second half of that, each into a folder of its own.
+void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedTrial& simulated);
+void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& bench,
                      const SimulatedTrial& simulated);
 
 }  // namespace fenestra

@@ -49,6 +49,10 @@ class MockBench final : public TrialBench {
     return {std::move(row), StageLog(SteadyClock(), false)};
   }
 
+  TrueSensor SensorOf(const SimulatedTrial& /*simulated*/) const override {
+    return {.cameras = calibration_, .velocity_W = Eigen::Vector3d::Zero()};
+  }
+
   std::optional<DepthFrame> DepthOf(const SimulatedTrial& /*simulated*/) const override {
     return std::nullopt;
   }

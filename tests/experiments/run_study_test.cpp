@@ -48,6 +48,7 @@ std::shared_ptr<const TrialBench> MakeSlowBench(const Study& study, const Cell& 
     std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const override {
       return quick_.DepthOf(simulated);
     }
+    TrueSensor SensorOf(const SimulatedTrial& s) const override { return quick_.SensorOf(s); }
     TruthImages TruthOf(const SimulatedTrial& s) const override { return quick_.TruthOf(s); }
 
    private:
