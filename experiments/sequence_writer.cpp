@@ -28,41 +28,56 @@ std::string FactorsYaml(const FactorValues& factors) {
   return "{" + text + "}";
 }
 
-std::string FrameYaml(const std::string& place, const Cell& cell, const SimulatedTrial& simulated) {
-  const auto files = ObservationFiles::In(place, cell.sensor);
+std::string FrameYaml(const SequenceFrame& frame) {
+  const ObservationFiles& files = frame.files;
   const std::string images =
-      cell.sensor == SensorKind::kStereo
+      files.sensor == SensorKind::kStereo
           ? fmt::format("left: {}\n    right: {}", files.left.string(), files.right.string())
           : fmt::format("color: {}\n    depth: {}", files.color.string(), files.depth.string());
   return fmt::format(
       "  - {}\n    calibration: {}\n    part: {}\n    levels: {}\n    drawn: {}\n    truth: {}\n",
-      images, files.calibration.string(), cell.part, FactorsYaml(cell.levels),
-      FactorsYaml(simulated.trial.drawn), ToYaml(simulated.truth));
+      images, files.calibration.string(), frame.part, FactorsYaml(frame.levels),
+      FactorsYaml(frame.drawn), ToYaml(frame.truth));
 }
 
 }  // namespace
 
-int WriteSequence(const std::filesystem::path& folder, const Study& study, SensorKind sensor) {
+std::string ToYaml(const Sequence& sequence) {
   std::string frames;
-  int count = 0;
+  for (const SequenceFrame& frame : sequence.frames) frames += FrameYaml(frame);
+  return fmt::format("name: {}\ndescription: {}\nsensor: {}\nframes:\n{}", sequence.name,
+                     Quoted(sequence.description), ToString(sequence.sensor), frames);
+}
+
+int WriteSequence(const std::filesystem::path& folder, const Study& study, SensorKind sensor) {
+  Sequence sequence{.name = study.name,
+                    .description = study.description,
+                    .sensor = sensor,
+                    .detectors = {},
+                    .frames = {},
+                    .text = ""};
   for (const Cell& cell : Cells(study)) {
     if (cell.sensor != sensor) continue;
     const CellBench bench(study, cell);
-    for (int trial = 0; trial < cell.repetitions; ++trial, ++count) {
+    for (int trial = 0; trial < cell.repetitions; ++trial) {
       const SimulatedTrial simulated = bench.Simulate(trial);
-      const std::string place = fmt::format("{:05}", count);
+      const std::string place = fmt::format("{:05}", sequence.frames.size());
       WriteObservation(folder / place, simulated.observation, simulated.calibration);
-      frames += FrameYaml(place, cell, simulated);
+      sequence.frames.push_back({.cell = cell.index,
+                                 .trial = trial,
+                                 .part = cell.part,
+                                 .levels = cell.levels,
+                                 .drawn = simulated.trial.drawn,
+                                 .files = ObservationFiles::In(place, sensor),
+                                 .truth = simulated.truth});
     }
   }
-  if (count == 0) {
+  if (sequence.frames.empty()) {
     throw InputError("--sequence", fmt::format("study '{}' has no cell with sensor {}", study.name,
                                                ToString(sensor)));
   }
-  WriteFileAtomically(folder / "sequence.yaml",
-                      fmt::format("name: {}\ndescription: {}\nsensor: {}\nframes:\n{}", study.name,
-                                  Quoted(study.description), ToString(sensor), frames));
-  return count;
+  WriteFileAtomically(folder / "sequence.yaml", ToYaml(sequence));
+  return static_cast<int>(sequence.frames.size());
 }
 
 }  // namespace fenestra

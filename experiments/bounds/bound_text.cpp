@@ -72,14 +72,17 @@ class Parser {
         Expect("cell");
         bound_.in_each_cell = true;
       } else if (word == "where") {
-        do ReadCondition();
-        while (TakeIf("and"));
-        if (at_ < tokens_.size()) Unexpected(Next(""), "and, or the end");
+        ReadConditions();
       } else {
         Unexpected(word, "with, in, where or the end");
       }
     }
     return bound_;
+  }
+
+  std::vector<Condition> ParseWhere() {
+    ReadConditions();
+    return bound_.where;
   }
 
  private:
@@ -203,6 +206,12 @@ class Parser {
         fmt::format("{} must lie between {} and {}, not be {}", what, min, max, bound_.limit));
   }
 
+  void ReadConditions() {
+    do ReadCondition();
+    while (TakeIf("and"));
+    if (at_ < tokens_.size()) Unexpected(Next(""), "and, or the end");
+  }
+
   void ReadCondition() {
     Condition condition;
     condition.name = Next("a condition");
@@ -295,6 +304,10 @@ const char* ToString(Quantity quantity) {
 
 Bound ParseBound(const std::string& text, double default_confidence) {
   return Parser(text, default_confidence).Parse();
+}
+
+std::vector<Condition> ParseConditions(const std::string& text) {
+  return Parser(text, 0.95).ParseWhere();
 }
 
 }  // namespace fenestra

@@ -29,4 +29,7 @@ class BoundTextError : public std::runtime_error {
 /// parts are not: only a study can tell.
 Bound ParseBound(const std::string& text, double default_confidence);
 
+/// Reads what stands behind "where" alone:  condition {"and" condition}.
+std::vector<Condition> ParseConditions(const std::string& text);
+
 }  // namespace fenestra
