@@ -33,6 +33,7 @@ void AddDepthCommand(CLI::App& program, int& exit_code);
 void AddScoreCommand(CLI::App& program, int& exit_code);
 void AddServeCommand(CLI::App& program, int& exit_code);
 void AddRatiosCommand(CLI::App& program, int& exit_code);
+void AddFixturesCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);
 
 }  // namespace fenestra::cli

@@ -99,6 +99,7 @@ int Main(int argc, char** argv) {
   AddScoreCommand(program, exit_code);
   AddServeCommand(program, exit_code);
   AddRatiosCommand(program, exit_code);
+  AddFixturesCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {
     program.parse(argc, argv);

@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "core/input_error.h"
+#include "experiments/cli/commands.h"
+#include "experiments/cli/interrupt.h"
+#include "experiments/cli/plugins.h"
+#include "experiments/fixtures/checksums.h"
+#include "experiments/fixtures/fixtures.h"
+#include "experiments/fixtures/staging_folder.h"
+#include "experiments/fixtures/trial_selection.h"
+#include "experiments/result_files.h"
+#include "experiments/study_catalogue.h"
+#include "experiments/study_reader.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct FixtureArguments {
+  std::string study;
+  fs::path out;
+  TrialSelection selection;
+  std::vector<std::string> formats = {"bundle"};
+  std::optional<uint64_t> seed;
+  int jobs = 0;  ///< 0: as many as there are processors.
+  bool dry_run = false;
+  fs::path verify;
+  std::vector<fs::path> plugins;
+};
+
+bool IsResult(const fs::path& path) {
+  std::error_code error;
+  return path.extension() == ".sqlite" || fs::is_regular_file(path / "results.sqlite", error);
+}
+
+void ReadStudyInto(FixtureOrder& order, const std::string& study) {
+  if (IsResult(study)) {
+    const ResultStore store = ResultStore::OpenReadOnly(StoreFile(study));
+    order.study = StudyOf(store, study);
+    order.study_text = store.Metadata().at("study_text");
+    return;
+  }
+  YamlReader reader = YamlReader::FromFile(FindStudy(study));
+  order.study = ReadStudy(reader, Detectors());
+  order.study_text = reader.text();
+}
+
+std::set<FixtureFormat> FormatsOf(const std::vector<std::string>& names) {
+  std::set<FixtureFormat> formats;
+  for (const FixtureFormat format : kAllFixtureFormats) {
+    for (const std::string& name : names) {
+      if (name == "all" || name == ToString(format)) formats.insert(format);
+    }
+  }
+  return formats;
+}
+
+void PrintTrials(const FixtureOrder& order, const std::vector<Cell>& cells) {
+  for (const TrialKey& key : order.trials) {
+    const Cell& cell = cells[static_cast<size_t>(key.cell)];
+    std::string levels;
+    for (const auto& [name, value] : cell.levels) {
+      levels += fmt::format(" {}={}", name, ToString(value));
+    }
+    fmt::print("{}/{} {} {}{}\n", key.cell, key.trial, cell.part, ToString(cell.sensor), levels);
+  }
+}
+
+std::string Size(uint64_t bytes) {
+  const double mega = static_cast<double>(bytes) / 1e6;
+  return mega < 1000.0 ? fmt::format("{:.0f} MB", mega) : fmt::format("{:.1f} GB", mega / 1000.0);
+}
+
+uint64_t BytesIn(const fs::path& folder) {
+  uint64_t bytes = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  return bytes;
+}
+
+FixtureOrder OrderOf(const FixtureArguments& arguments) {
+  if (arguments.study.empty()) throw InputError("STUDY", "is missing; or give --verify DIR");
+  if (arguments.out.empty() && !arguments.dry_run) {
+    throw InputError("--out", "is missing: the folder for the fixtures");
+  }
+  if (!arguments.out.empty()) CheckNewFolder(arguments.out);
+  LoadPlugins(arguments.plugins);
+  FixtureOrder order;
+  ReadStudyInto(order, arguments.study);
+  if (arguments.seed) order.study.seed = *arguments.seed;
+  const std::vector<Cell> cells = Cells(order.study);
+  order.trials = SelectTrials(order.study, cells, arguments.selection);
+  const auto& names = arguments.formats;
+  const bool all = std::find(names.begin(), names.end(), "all") != names.end();
+  order.formats = UsefulFormats(FormatsOf(names), cells, order.trials, all);
+  order.out = arguments.out;
+  order.jobs = arguments.jobs;
+  if (order.jobs == 0) {
+    order.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  }
+  return order;
+}
+
+int MakeFixtures(const FixtureArguments& arguments) {
+  FixtureOrder order = OrderOf(arguments);
+  const std::vector<Cell> cells = Cells(order.study);
+  const std::string what = fmt::format("{} trial{} of '{}'", order.trials.size(),
+                                       order.trials.size() == 1 ? "" : "s", order.study.name);
+  const std::string estimate = Size(EstimatedBytes(order, cells));
+  if (arguments.dry_run) {
+    PrintTrials(order, cells);
+    fmt::print("{}, about {}; nothing was written\n", what, estimate);
+    return kDone;
+  }
+  fmt::print(stderr, "{}, about {}\n", what, estimate);
+  const InterruptWatch watch;
+  order.stop = [&watch] { return watch.requested(); };
+  if (!WriteFixtures(order)) {
+    fmt::print(stderr, "fenestra: interrupted; nothing was left in {}\n", order.out.string());
+    return kFailure;
+  }
+  fmt::print("{} are in {}, {}\n", what, order.out.string(), Size(BytesIn(order.out)));
+  return kDone;
+}
+
+int Verify(const FixtureArguments& arguments) {
+  if (!arguments.study.empty() || !arguments.out.empty()) {
+    throw InputError("--verify", "checks fixtures that are there; it takes no study and no --out");
+  }
+  const size_t files = VerifyChecksums(arguments.verify);
+  fmt::print("{} files in {} are those that were written\n", files, arguments.verify.string());
+  return kDone;
+}
+
+}  // namespace
+
+void AddFixturesCommand(CLI::App& program, int& exit_code) {
+  CLI::App* command = program.add_subcommand(
+      "fixtures", "Writes trials as files for the tests of other programs, with their truth");
+  command->footer(
+      "Examples:\n"
+      "  fenestra fixtures paper --out fixtures                   the first trial of each cell\n"
+      "  fenestra fixtures paper --trials 0-4 --where 'sensor = rgbd and distance_m <= 2' "
+      "--format bundle,tum --out fixtures\n"
+      "  fenestra fixtures results/paper --trials 7/3 --out fixtures\n"
+      "  fenestra fixtures --verify fixtures\n"
+      "The same command makes the same bytes. docs/fixtures.md describes the files.");
+  const auto arguments = std::make_shared<FixtureArguments>();
+  command->add_option("STUDY|RESULTS", arguments->study,
+                      "Name or file of a study, or the results of one");
+  command->add_option("--out", arguments->out, "Folder for the files, new or empty");
+  command
+      ->add_option("--trials", arguments->selection.trials,
+                   "Trials of each cell (0-4), or CELL/TRIALS (7/3,8/0-2)")
+      ->capture_default_str();
+  command->add_option("--cells", arguments->selection.cells, "Only these cells (0,3-5)");
+  command->add_option("--where", arguments->selection.where,
+                      "Only trials with these values, as in the where of a bound");
+  command
+      ->add_option("--format", arguments->formats,
+                   "bundle, tum (RGB-D), euroc (stereo), several with commas, or all")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"bundle", "tum", "euroc", "all"}))
+      ->capture_default_str();
+  AddPluginOption(*command, arguments->plugins);
+  command->add_option("--seed", arguments->seed, "Instead of the study's");
+  command->add_option("--jobs", arguments->jobs, "Trials at the same time; default: all processors")
+      ->check(CLI::Range(1, 1024));
+  command->add_flag("--dry-run", arguments->dry_run, "Show the trials and the size, write nothing");
+  command->add_option("--verify", arguments->verify,
+                      "Check that this folder's files are those that were written");
+  command->callback([arguments, &exit_code] {
+    exit_code = arguments->verify.empty() ? MakeFixtures(*arguments) : Verify(*arguments);
+  });
+}
+
+}  // namespace fenestra::cli
