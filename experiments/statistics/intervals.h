@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "core/random_stream.h"
+#include "experiments/statistics.h"
+
+namespace fenestra {
+
+/// Confidence interval of the p-quantile ξ of the distribution that the values were drawn from, by
+/// order statistics: [x_(l), x_(u)] with
+///
+///     l the largest rank with P(Bin(n, p) < l) ≤ α/2   (-∞ for l = 0)
+///     u the smallest rank with P(Bin(n, p) ≥ u) ≤ α/2   (+∞ if there is none)
+///
+/// and α = 1 - confidence. Covers ξ with at least the confidence for every distribution, those with
+/// atoms and with +∞ (a miss) among them.
+/// Source: H. A. David and H. N. Nagaraja, "Order Statistics", 3rd ed. 2003, section 7.1.
+/// Domain: none NaN, 0 < p < 1; without values (-∞, +∞).
+Interval QuantileInterval(std::span<const double> values, double p, double confidence = 0.95);
+
+/// x̄ ± t s / √n with Student's t of n - 1 degrees of freedom. Exact for normal values, otherwise
+/// for large n (within 2 % of nominal from n = 30 on unless the values are very skewed).
+/// nullopt for n < 2.
+std::optional<Interval> MeanInterval(std::span<const double> values, double confidence = 0.95);
+
+/// Interval of √E[x²], of which RootMeanSquare is the estimate, by a studentised bootstrap of
+/// ln m, m = Σ x²/n: with s² the variance of x² and τ = (ln m* - ln m) / (s* / (m* √n)) over
+/// resamples,
+///
+///     ln m - τ_(1-α/2) s/(m √n)  ≤  ln E[x²]  ≤  ln m - τ_(α/2) s/(m √n)
+///
+/// The logarithm makes the variance of the estimate nearly free of its mean, without which skewed
+/// squares are covered too seldom. From kManyForRms values on τ is taken for normal. Approximate:
+/// within 2 % of nominal for normal values from n = 10 on.   nullopt for n < kFewestForRms, and
+/// where all squares are equal. Source: B. Efron and R. J. Tibshirani, "An Introduction to the
+/// Bootstrap", 1993, chapter 12. Domain: finite values. Equal values and streams give equal bits.
+std::optional<Interval> RootMeanSquareInterval(std::span<const double> values,
+                                               const RandomStream& resampling,
+                                               double confidence = 0.95);
+
+inline constexpr int kFewestForRms = 5;
+inline constexpr int kManyForRms = 1000;
+
+}  // namespace fenestra
