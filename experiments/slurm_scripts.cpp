@@ -22,13 +22,21 @@ std::string Header(const SlurmSubmission& submission, const std::string& log) {
   return text;
 }
 
+std::string PluginOptions(const SlurmSubmission& submission) {
+  std::string options;
+  for (const std::filesystem::path& plugin : submission.plugins) {
+    options += " --plugin " + ShellQuoted(plugin.string());
+  }
+  return options;
+}
+
 }  // namespace
 
 std::string SlurmArrayScript(const SlurmSubmission& submission) {
   std::string text = Header(submission, "shard-%a.log");
   text += fmt::format("#SBATCH --array=1-{}\n#SBATCH --cpus-per-task={}\n", submission.shards,
                       submission.jobs);
-  std::string options;
+  std::string options = PluginOptions(submission);
   for (const std::string& option : submission.run_options) options += " " + ShellQuoted(option);
   return text + fmt::format(
                     "exec {} run {}{} --jobs {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" "
@@ -40,10 +48,10 @@ std::string SlurmArrayScript(const SlurmSubmission& submission) {
 
 std::string SlurmMergeScript(const SlurmSubmission& submission) {
   return Header(submission, "merge.log") +
-         fmt::format("exec {} merge {}/{{1..{}}} --out {}\n",
+         fmt::format("exec {} merge {}/{{1..{}}} --out {}{}\n",
                      ShellQuoted(submission.program.string()),
                      ShellQuoted((submission.out / "shards").string()), submission.shards,
-                     ShellQuoted(submission.out.string()));
+                     ShellQuoted(submission.out.string()), PluginOptions(submission));
 }
 
 }  // namespace fenestra

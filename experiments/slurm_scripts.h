@@ -8,10 +8,11 @@ namespace fenestra {
 
 /// A study shared out over a Slurm cluster.
 struct SlurmSubmission {
-  std::filesystem::path program;            ///< This program, as all nodes see it.
-  std::filesystem::path study;              ///< The study's file, as all nodes see it.
-  std::string name;                         ///< Of the study.
-  std::vector<std::string> run_options;     ///< Further options of `fenestra run`.
+  std::filesystem::path program;                    ///< This program, as all nodes see it.
+  std::filesystem::path study;                      ///< The study's file, as all nodes see it.
+  std::string name;                                 ///< Of the study.
+  std::vector<std::string> run_options;             ///< Further options of `fenestra run`.
+  std::vector<std::filesystem::path> plugins = {};  ///< As all nodes see them.
   std::vector<std::string> sbatch_options;  ///< Further options of sbatch, such as --time=1:00:00.
   std::filesystem::path out;                ///< Absolute; shards go to `out`/shards/1 and so on.
   int shards = 1;

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
 #include "experiments/theory/bound_table.h"
@@ -15,6 +17,7 @@ namespace {
 
 struct BoundArguments {
   std::string study;
+  std::vector<std::filesystem::path> plugins;
   std::optional<int> cell;
   int trials = 5;
 };
@@ -30,6 +33,7 @@ constexpr char kLegend[] =
     "frame's size is known. both: geom and the size. —: no bound. See docs/theory.md.\n";
 
 void PrintBounds(const BoundArguments& arguments) {
+  LoadPlugins(arguments.plugins);
   const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
   std::vector<Cell> cells;
   if (arguments.cell) {
@@ -57,6 +61,7 @@ void AddBoundCommand(CLI::App& program, int& exit_code) {
   command->add_option("--trials", arguments->trials, "Of each cell")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
+  AddPluginOption(*command, arguments->plugins);
   command->callback([arguments, &exit_code] {
     PrintBounds(*arguments);
     exit_code = kDone;

@@ -4,6 +4,7 @@
 
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/sampling.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
@@ -15,12 +16,14 @@ namespace {
 
 struct ExportArguments {
   std::string study;
+  std::vector<std::filesystem::path> plugins;
   int cell = 0;
   int trial = 0;
   std::filesystem::path out;
 };
 
 void Export(const ExportArguments& arguments) {
+  LoadPlugins(arguments.plugins);
   const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
   if (arguments.trial < 0) {
     throw InputError("--trial", fmt::format("must not be negative, but is {}", arguments.trial));
@@ -46,6 +49,7 @@ void AddExportCommand(CLI::App& program, int& exit_code) {
       ->capture_default_str();
   command->add_option("--trial", arguments->trial, "Index of the trial")->capture_default_str();
   command->add_option("--out", arguments->out, "A .gltf or .glb file")->required();
+  AddPluginOption(*command, arguments->plugins);
   command->callback([arguments, &exit_code] {
     Export(*arguments);
     exit_code = kDone;

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "experiments/cli/commands.h"
+#include "experiments/cli/plugins.h"
 #include "experiments/cli/print_result.h"
 #include "experiments/merge.h"
 
@@ -18,7 +19,10 @@ void AddMergeCommand(CLI::App& program, int& exit_code) {
   command->add_option("SHARDS", merge->shards, "Results folders of all shards")->required();
   command->add_option("--out", merge->out, "Results folder of the whole")->required();
   command->add_flag("--restart", merge->restart, "Replaces another result that is there");
-  command->callback([merge, &exit_code] {
+  const auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
+  AddPluginOption(*command, *plugins);
+  command->callback([merge, plugins, &exit_code] {
+    LoadPlugins(*plugins);
     PrintResult(MergeShards(*merge), merge->out);
     exit_code = kDone;
   });

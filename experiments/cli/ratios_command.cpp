@@ -5,6 +5,7 @@
 
 #include "experiments/cli/commands.h"
 #include "experiments/paired_ratio.h"
+#include "experiments/result_files.h"
 #include "experiments/store.h"
 
 namespace fenestra::cli {
@@ -23,10 +24,7 @@ void AddRatiosCommand(CLI::App& program, int& exit_code) {
   command->add_option("RESULTS", *results, "Results folder or its results.sqlite")->required();
   command->add_option("--factor", *factor, "A factor with levels")->required();
   command->callback([results, factor, &exit_code] {
-    const bool folder = std::filesystem::is_directory(*results);
-    const ResultStore store =
-        ResultStore::OpenReadOnly(folder ? *results / "results.sqlite" : *results);
-    const std::vector<TrialRecord> rows = store.Rows();
+    const std::vector<TrialRecord> rows = ResultStore::OpenReadOnly(StoreFile(*results)).Rows();
     fmt::print("{}", PairedRatioTable(PairsBy(rows, *factor), *factor, RandomStream(1)));
     exit_code = kDone;
   });

@@ -36,13 +36,16 @@ void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments) {
   AddPluginOption(command, arguments.plugins);
 }
 
+CLI::Option* AddJobsOption(CLI::App& command, StudyRunArguments& arguments) {
+  return command
+      .add_option("--jobs", arguments.jobs, "Trials at the same time; default: all processors")
+      ->check(CLI::Range(1, 1024));
+}
+
 std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments) {
   CLI::Option* out =
       command.add_option("--out", arguments.out, "Results folder; default: results/<study>");
-  CLI::Option* jobs =
-      command
-          .add_option("--jobs", arguments.jobs, "Trials at the same time; default: all processors")
-          ->check(CLI::Range(1, 1024));
+  CLI::Option* jobs = AddJobsOption(command, arguments);
   AddStudyOptions(command, arguments);
   return {out, jobs, command.get_option("--seed"), command.get_option("--trials")};
 }

@@ -12,16 +12,18 @@ namespace fenestra::cli {
 
 /// What a user may say of any run of a study, whichever command starts it.
 struct StudyRunArguments {
-  std::filesystem::path out;
+  std::filesystem::path out = {};
   int jobs = 0;  ///< 0: as many as there are processors.
-  std::optional<uint64_t> seed;
-  std::optional<int> trials;
-  std::vector<std::filesystem::path> plugins;
+  std::optional<uint64_t> seed = {};
+  std::optional<int> trials = {};
+  std::vector<std::filesystem::path> plugins = {};
 };
 
 /// --seed and --trials, which change the study; --plugin.
 void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments);
-/// These and --out, --jobs. Returns all that make no sense without a run.
+/// --jobs.
+CLI::Option* AddJobsOption(CLI::App& command, StudyRunArguments& arguments);
+/// All of these and --out. Returns all that make no sense without a run.
 std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments);
 
 /// Loads the plugins and reads the study. Throws InputError.

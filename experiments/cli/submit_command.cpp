@@ -4,17 +4,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/study_run_arguments.h"
 #include "experiments/shell_quoting.h"
 #include "experiments/slurm_scripts.h"
 #include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
-#include "vision/detector_registry.h"
 
 namespace fenestra::cli {
 namespace {
@@ -25,10 +23,7 @@ struct SubmitArguments {
   std::string study;
   bool slurm = false;
   int shards = 1;
-  int jobs = 1;
-  fs::path out;
-  std::optional<uint64_t> seed;
-  std::optional<int> trials;
+  StudyRunArguments run{.jobs = 1};
   std::vector<std::string> sbatch_options;
   bool dry_run = false;
 };
@@ -39,16 +34,16 @@ SlurmSubmission SubmissionOf(const SubmitArguments& arguments, const std::string
                              .name = name,
                              .run_options = {},
                              .sbatch_options = arguments.sbatch_options,
-                             .out = arguments.out,
+                             .out = arguments.run.out,
                              .shards = arguments.shards,
-                             .jobs = arguments.jobs};
+                             .jobs = arguments.run.jobs};
   if (submission.out.empty()) submission.out = fs::path("results") / name;
   submission.out = fs::absolute(submission.out).lexically_normal();
   submission.study = submission.out / "slurm" / "study.yaml";
-  if (arguments.seed) submission.run_options.push_back(fmt::format("--seed={}", *arguments.seed));
-  if (arguments.trials) {
-    submission.run_options.push_back(fmt::format("--trials={}", *arguments.trials));
-  }
+  const StudyRunArguments& run = arguments.run;
+  if (run.seed) submission.run_options.push_back(fmt::format("--seed={}", *run.seed));
+  if (run.trials) submission.run_options.push_back(fmt::format("--trials={}", *run.trials));
+  for (const fs::path& plugin : run.plugins) submission.plugins.push_back(fs::absolute(plugin));
   return submission;
 }
 
@@ -71,10 +66,8 @@ std::string Submit(const std::string& options, const fs::path& script) {
 
 void Submit(const SubmitArguments& arguments) {
   if (!arguments.slurm) throw InputError("submit", "say where to: --slurm");
-  YamlReader reader = YamlReader::FromFile(FindStudy(arguments.study));
-  const std::string text = reader.text();
-  const Study study = ReadStudy(std::move(reader), Detectors());
-  const SlurmSubmission submission = SubmissionOf(arguments, study.name);
+  const StudyRun run = MakeStudyRun(FindStudy(arguments.study), arguments.run);
+  const SlurmSubmission submission = SubmissionOf(arguments, run.study.name);
   const fs::path folder = submission.out / "slurm";
   constexpr const char* kDependent = "--kill-on-invalid-dep=yes --dependency=afterok:";
   if (arguments.dry_run) {
@@ -84,7 +77,7 @@ void Submit(const SubmitArguments& arguments) {
                (folder / "array.sh").string(), kDependent, (folder / "merge.sh").string());
     return;
   }
-  WriteFileAtomically(submission.study, text);
+  WriteFileAtomically(submission.study, run.study_text);
   WriteFileAtomically(folder / "array.sh", SlurmArrayScript(submission));
   WriteFileAtomically(folder / "merge.sh", SlurmMergeScript(submission));
   const std::string array = Submit("", folder / "array.sh");
@@ -108,13 +101,8 @@ void AddSubmitCommand(CLI::App& program, int& exit_code) {
   command->add_option("--shards", arguments->shards, "Into how many tasks the study is divided")
       ->required()
       ->check(CLI::Range(1, 100000));
-  command->add_option("--jobs", arguments->jobs, "Trials at the same time in each task; default: 1")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--out", arguments->out, "Results folder; default: results/<study>");
-  command->add_option("--seed", arguments->seed, "Instead of the study's seed")
-      ->check(CLI::Range(uint64_t{0}, uint64_t{INT64_MAX}));
-  command->add_option("--trials", arguments->trials, "Trials of each cell, instead of the study's")
-      ->check(CLI::Range(1, 1000000));
+  AddStudyRunOptions(*command, arguments->run);
+  command->get_option("--jobs")->description("Trials at the same time in each task; default: 1");
   command
       ->add_option("--sbatch", arguments->sbatch_options,
                    "A further option for both jobs, such as --sbatch=--partition=long")
