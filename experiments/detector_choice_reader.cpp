@@ -78,14 +78,12 @@ std::optional<GivenDetector> ReadProgram(YamlReader& reader, const YAML::Node& n
 
 std::optional<GivenDetector> ReadDetector(YamlReader& reader, const YAML::Node& node,
                                           std::span<const DetectorInfo> known) {
-  static const std::vector<std::string> keys{"name",    "label",        "options",
-                                             "isolate", "time_limit_s", "start_limit_s"};
   if (!node.IsMap()) {
     const DetectorInfo* info = ReadDetectorName(reader, node, known);
     return info ? std::optional(GivenDetector{DefaultChoice(*info), node}) : std::nullopt;
   }
   if (node["command"].IsDefined()) return ReadProgram(reader, node, known);
-  bool good = reader.CheckKeys(node, "a detector", keys);
+  bool good = reader.CheckKeys(node, "a detector", kDetectorKeys);
   if (!node["name"].IsDefined()) {
     reader.AddFault(node, "a detector needs a name");
     return std::nullopt;

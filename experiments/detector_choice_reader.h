@@ -17,6 +17,10 @@ struct GivenDetector {
   YAML::Node node;
 };
 
+/// The keys of a detector of this program.
+inline const std::vector<std::string> kDetectorKeys{"name",    "label",        "options",
+                                                    "isolate", "time_limit_s", "start_limit_s"};
+
 /// Reads a list of detectors, each a name or {name: …, label: …, options: {…}, isolate: …}, or a
 /// program of the user's own (see detector_process_reader.h); options that are not given have their
 /// defaults, a missing label is the name. Faults are noted in the reader; the

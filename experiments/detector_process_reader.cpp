@@ -11,7 +11,6 @@
 namespace fenestra {
 namespace {
 
-constexpr double kLongestLimit_s = 3600.0;
 constexpr size_t kMostWords = 1000;
 
 bool ReadLimit(YamlReader& reader, const YAML::Node& node, const std::string& name,
@@ -86,9 +85,7 @@ std::optional<ParameterValue> ReadFreeValue(YamlReader& reader, const YAML::Node
 }
 
 std::optional<DetectorChoice> ReadExternalDetector(YamlReader& reader, const YAML::Node& node) {
-  static const std::vector<std::string> keys{"name",    "label",        "command",      "sensor",
-                                             "options", "time_limit_s", "start_limit_s"};
-  bool good = reader.CheckKeys(node, "a detector with a command", keys);
+  bool good = reader.CheckKeys(node, "a detector with a command", kProgramKeys);
   DetectorChoice choice{.label = {},
                         .name = {},
                         .sensor = SensorKind::kStereo,

@@ -1,11 +1,18 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/yaml_reader.h"
 #include "experiments/study.h"
 
 namespace fenestra {
+
+inline const std::vector<std::string> kProgramKeys{
+    "name", "label", "command", "sensor", "options", "time_limit_s", "start_limit_s"};
+/// The longest of the two limits.
+inline constexpr double kLongestLimit_s = 3600.0;
 
 /// Reads a detector that is a program of the user's own:
 ///

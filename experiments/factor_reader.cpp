@@ -10,9 +10,6 @@
 namespace fenestra {
 namespace {
 
-const std::vector<std::string> kRangeKeys{"from", "to", "step", "count"};
-const std::vector<std::string> kDistributionKeys{"uniform", "log_uniform", "triangular", "normal"};
-
 // Reads the setting of one factor.
 class SettingReader {
  public:

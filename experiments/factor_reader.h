@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/parameter_table.h"
 #include "core/yaml_reader.h"
@@ -25,6 +27,10 @@ namespace fenestra {
 std::optional<std::variant<Levels, Distribution>> ReadFactorSetting(YamlReader& reader,
                                                                     const ParameterInfo& factor,
                                                                     const YAML::Node& node);
+
+inline const std::vector<std::string> kRangeKeys{"from", "to", "step", "count"};
+inline const std::vector<std::string> kDistributionKeys{"uniform", "log_uniform", "triangular",
+                                                        "normal"};
 
 inline constexpr double kNegligibleMass = 1e-6;
 

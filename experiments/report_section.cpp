@@ -91,4 +91,12 @@ std::string LevelText(const FactorValues& levels, const std::string& name) {
   return "";
 }
 
+std::string LevelsText(const FactorValues& levels) {
+  std::string text;
+  for (const auto& [name, value] : levels) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, ToString(value));
+  }
+  return text;
+}
+
 }  // namespace fenestra

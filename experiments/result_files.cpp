@@ -8,6 +8,7 @@
 #include "core/input_error.h"
 #include "experiments/prior_text.h"
 #include "experiments/report.h"
+#include "experiments/row_reports.h"
 #include "experiments/run_trials.h"
 #include "experiments/study_reader.h"
 #include "experiments/summariser.h"
@@ -18,7 +19,8 @@ namespace fenestra {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr const char* kTextFiles[] = {"study.yaml", "trials.csv", "summary.csv", "summary.md"};
+constexpr const char* kTextFiles[] = {"study.yaml", "trials.csv", "summary.csv", "summary.md",
+                                      "intervals.csv"};
 
 std::string Get(const StoreMetadata& metadata, const std::string& key) {
   const auto found = metadata.find(key);
@@ -69,7 +71,12 @@ std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::pa
     WriteTrialsCsv([&store](const auto& visit) { store.ForEachRow(visit); }, out);
   });
   WriteFileAtomically(folder / "summary.csv", SummaryCsv(summaries));
-  WriteFileAtomically(folder / "summary.md", SummaryMarkdown(TitleOf(store, study), summaries));
+  const std::vector<Cell> cells = Cells(study);
+  RowReports reports(study, cells);
+  store.ForEachRow([&reports](const TrialRecord& row) { reports.Add(row); });
+  WriteFileAtomically(folder / "summary.md",
+                      SummaryMarkdown(TitleOf(store, study), summaries) + reports.Markdown());
+  WriteRowReports(reports, study, folder);
   return summaries;
 }
 
@@ -82,6 +89,7 @@ bool HasResultFiles(const fs::path& folder) {
 
 void RemoveResultFiles(const fs::path& folder) {
   for (const char* name : kTextFiles) fs::remove(folder / name);
+  for (const std::string& name : kRowReportFiles) fs::remove(folder / name);
   fs::remove_all(folder / "pictures");
 }
 

@@ -18,6 +18,8 @@ namespace fenestra {
 ///     trials.csv       every row
 ///     summary.csv      one line per cell and detector
 ///     summary.md       the report
+///     intervals.csv    every figure of a cell and detector with its interval
+///     comparison.csv, error_budget.csv, envelope.csv, envelope.png     where there are any
 ///     pictures/        of the first trial of each cell, see WritePictures
 ///
 /// docs/results.md describes them to users.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <iterator>
 
@@ -13,6 +14,7 @@
 #include "experiments/run_identity.h"
 #include "experiments/store.h"
 #include "experiments/trial_files.h"
+#include "experiments/trial_plan.h"
 #include "experiments/trial_writer.h"
 #include "experiments/versions.h"
 
@@ -61,8 +63,49 @@ ResultStore Open(const StudyRun& run, const std::filesystem::path& file, bool ex
   return store;
 }
 
-void RunMissing(const StudyRun& run, std::span<const Cell> cells, std::span<const TrialKey> missing,
-                ResultStore& store) {
+// Whether what is there decides which trials are run.
+bool IsAdaptive(const Study& study) {
+  return std::any_of(study.parts.begin(), study.parts.end(),
+                     [](const StudyPart& part) { return part.until || part.envelope; });
+}
+
+std::vector<TrialKey> Missing(const StudyRun& run, std::span<const Cell> cells,
+                              const ResultStore& store) {
+  if (!IsAdaptive(run.study))
+    return Without(run.shard.Of(AllTrials(cells)), store.FinishedTrials());
+  TrialPlan plan(run.study, cells);
+  store.ForEachRow([&plan](const TrialRecord& row) { plan.Add(row); });
+  return plan.Next();
+}
+
+void CheckShard(const StudyRun& run) {
+  if (run.shard.count == 1 || !IsAdaptive(run.study)) return;
+  throw InputError("--shard",
+                   "a study with until or envelope cannot be shared out: which trials it "
+                   "runs depends on what all the others gave");
+}
+
+void RunBatch(const StudyRun& run, std::span<const Cell> cells, std::span<const TrialKey> batch,
+              const std::function<bool()>& stop, ResultStore& store) {
+  TrialWriter writer(store, {.interval = run.store_interval, .on_stored = run.on_stored});
+  const auto pictured = [&run](TrialKey key) { return run.pictures && key.trial == 0; };
+  const RunOptions options{.jobs = run.jobs,
+                           .keep_artifacts = pictured,
+                           .stop = stop,
+                           .detectors = run.detectors,
+                           .make_bench = run.make_bench};
+  RunTrials(run.study, cells, batch, options, [&](const FinishedTrial& trial) {
+    // Before the rows: a trial that is stored is not run again.
+    if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.bench.cell()), trial);
+    writer.Add(trial.Records());
+  });
+  writer.Finish();
+}
+
+// Runs what is missing, and what turns out to be missing then. Returns whether all is there.
+bool RunMissing(const StudyRun& run, std::span<const Cell> cells, ResultStore& store) {
+  std::vector<TrialKey> missing = Missing(run, cells, store);
+  if (missing.empty()) return true;
   const int64_t entry = store.AddRun({.shard = run.shard.ToString(),
                                       .started_utc = UtcNow(),
                                       .ended_utc = std::nullopt,
@@ -70,20 +113,17 @@ void RunMissing(const StudyRun& run, std::span<const Cell> cells, std::span<cons
                                       .host = HostName(),
                                       .processor = Processor(),
                                       .command = run.command});
-  TrialWriter writer(store, {.interval = run.store_interval, .on_stored = run.on_stored});
-  const auto pictured = [&run](TrialKey key) { return run.pictures && key.trial == 0; };
-  const RunOptions options{.jobs = run.jobs,
-                           .keep_artifacts = pictured,
-                           .stop = run.stop,
-                           .detectors = run.detectors,
-                           .make_bench = run.make_bench};
-  RunTrials(run.study, cells, missing, options, [&](const FinishedTrial& trial) {
-    // Before the rows: a trial that is stored is not run again.
-    if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.bench.cell()), trial);
-    writer.Add(trial.Records());
-  });
-  writer.Finish();
+  std::atomic<bool> stopped = false;  // Told once, and still so when the batch has ended.
+  const auto stop = [&run, &stopped] {
+    if (run.stop()) stopped = true;
+    return stopped.load();
+  };
+  while (!missing.empty() && !stopped) {
+    RunBatch(run, cells, missing, stop, store);
+    missing = Missing(run, cells, store);
+  }
   store.SetRunEnd(entry, UtcNow());
+  return missing.empty();
 }
 
 }  // namespace
@@ -92,32 +132,35 @@ StudyResult RunStudy(const StudyRun& run) {
   const std::vector<Cell> cells = Cells(run.study);
   const std::vector<TrialKey> trials = run.shard.Of(AllTrials(cells));
   const std::filesystem::path file = run.out / "results.sqlite";
+  CheckShard(run);
   run.detectors->Start(run.study);
   const FolderLock lock(run.out);
 
-  std::vector<TrialKey> missing = trials;
   RunStart start{.trials = static_cast<int64_t>(trials.size()), .stored = 0, .tallies = {}};
   const bool exists = std::filesystem::exists(file);
+  bool complete = false;
   if (exists && !run.restart) {
     const ResultStore store = ResultStore::OpenReadOnly(file);
     CheckSame(store.Metadata(), run, file);
-    missing = Without(trials, store.FinishedTrials());
-    start.stored = static_cast<int64_t>(trials.size() - missing.size());
+    complete = Missing(run, cells, store).empty();
+    start.stored = static_cast<int64_t>(store.FinishedTrials().size());
     start.tallies = store.Tallies();
   }
-  StudyResult result{.trials = start.trials,
+  StudyResult result{.trials = complete ? start.stored : start.trials,
                      .stored_before = start.stored,
                      .stored = start.stored,
                      .summaries = {}};
-  if (exists && missing.empty() && HasResultFiles(run.out)) {
+  if (complete && HasResultFiles(run.out)) {
     result.summaries = Summarise(ResultStore::OpenReadOnly(file));
     return result;
   }
   run.on_start(start);
   ResultStore store = Open(run, file, exists);
-  if (!missing.empty()) RunMissing(run, cells, missing, store);
+  complete = RunMissing(run, cells, store);
   result.stored = static_cast<int64_t>(store.FinishedTrials().size());
-  if (result.complete()) result.summaries = WriteResultFiles(store, run.out);
+  if (!complete) return result;
+  result.trials = result.stored;  // Of a study that stops by itself known only now.
+  result.summaries = WriteResultFiles(store, run.out);
   return result;
 }
 

@@ -10,7 +10,9 @@
 #include "core/parameter_table.h"
 #include "experiments/design/sampling_design.h"
 #include "experiments/distribution.h"
+#include "experiments/envelope/envelope_rule.h"
 #include "experiments/factors.h"
+#include "experiments/stopping_rule.h"
 #include "experiments/trial_settings.h"
 #include "vision/detector_registry.h"
 #include "vision/external/external_command.h"
@@ -62,7 +64,9 @@ struct StudyPart {
   /// gives them, then all others at their defaults.
   std::vector<Factor> factors;
   int repetitions;  ///< Trials of each cell.
-  SamplingDesign design;
+  SamplingDesign design{};
+  std::optional<StoppingRule> until{};     ///< When a cell may have fewer trials.
+  std::optional<EnvelopeRule> envelope{};  ///< Which cells are run at all.
 
   bool operator==(const StudyPart&) const = default;
 };

@@ -74,8 +74,8 @@ const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
 }
 
 const std::vector<std::string>& BlockKeys() {
-  static const std::vector<std::string> keys{"repetitions", "sensors", "detectors", "design",
-                                             "factors"};
+  static const std::vector<std::string> keys{"repetitions", "sensors",  "detectors", "design",
+                                             "until",       "envelope", "factors"};
   return keys;
 }
 
@@ -99,6 +99,14 @@ StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
   if (const YAML::Node design = node["design"]; design.IsDefined()) {
     block.design = ReadDesign(reader, design);
     block.sound = block.sound && block.design.has_value();
+  }
+  if (const YAML::Node until = node["until"]; until.IsDefined()) {
+    block.until = ReadStoppingRule(reader, until);
+    block.sound = block.sound && block.until.has_value();
+  }
+  if (const YAML::Node envelope = node["envelope"]; envelope.IsDefined()) {
+    block.envelope = ReadEnvelopeRule(reader, envelope);
+    block.sound = block.sound && block.envelope.has_value();
   }
   if (const YAML::Node factors = node["factors"]; factors.IsDefined()) {
     block.factors = ReadFactors(reader, factors);

@@ -26,6 +26,8 @@ struct StudyBlock {
   std::vector<GivenFactor> factors;
   std::optional<int> repetitions;
   std::optional<GivenDesign> design;
+  std::optional<StoppingRule> until;
+  std::optional<EnvelopeRule> envelope;
   /// Whether the block was read without faults. What it lacks may else be only misspelt.
   bool sound = true;
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/input_error.h"
+#include "experiments/envelope/requirement_count.h"
 
 namespace fenestra {
 namespace {
@@ -16,6 +17,15 @@ namespace {
 constexpr size_t kMostCornerFactors = 8;
 // A normal distribution's ends are so far out that nothing is ever drawn there.
 constexpr double kCornerProbability = 1e-6;
+constexpr size_t kFewestEnvelopeLevels = 3;
+
+bool AreRisingNumbers(const Levels& levels) {
+  for (size_t i = 0; i < levels.size(); ++i) {
+    const double* number = std::get_if<double>(&levels[i]);
+    if (number == nullptr || (i > 0 && *number <= std::get<double>(levels[i - 1]))) return false;
+  }
+  return levels.size() >= kFewestEnvelopeLevels;
+}
 
 bool MayContradict(FactorGroup group) {
   return group != FactorGroup::kViewpoint && group != FactorGroup::kLight;
@@ -93,6 +103,38 @@ std::vector<Contradiction> FindContradictions(const Study& study) {
     }
   }
   return contradictions;
+}
+
+std::vector<std::string> RuleObjections(const StudyPart& part) {
+  std::vector<std::string> objections;
+  const bool rows = part.design.method == DesignMethod::kSensitivity;
+  if (part.until && part.envelope) objections.push_back("until and envelope exclude each other");
+  if (rows && part.until) objections.push_back("a sensitivity design has no use for until");
+  if (rows && part.envelope) objections.push_back("a sensitivity design has no use for envelope");
+  if (!part.envelope) return objections;
+  const EnvelopeRule& rule = *part.envelope;
+  const auto over = std::find_if(part.factors.begin(), part.factors.end(),
+                                 [&rule](const Factor& f) { return f.name == rule.over; });
+  const Levels* levels = over == part.factors.end() ? nullptr : std::get_if<Levels>(&over->setting);
+  if (levels == nullptr || !AreRisingNumbers(*levels)) {
+    objections.push_back(
+        fmt::format("the envelope needs at least {} rising numbers as levels of "
+                    "{}, such as {{from: 1, to: 9, step: 0.25}}",
+                    kFewestEnvelopeLevels, rule.over));
+  }
+  for (const SensorKind sensor : part.sensors) {
+    if (Concerns(GroupOf(rule.over), sensor)) continue;
+    objections.push_back(fmt::format("{} has no effect on {}", rule.over, ToString(sensor)));
+  }
+  if (!RequirementCount(rule).CanHoldAfter(part.repetitions)) {
+    int enough = part.repetitions;
+    while (!RequirementCount(rule).CanHoldAfter(enough)) enough += 1 + enough / 100;
+    objections.push_back(
+        fmt::format("{} repetitions cannot show the requirement with {:g} % "
+                    "confidence even if all are good; about {} can",
+                    part.repetitions, 100.0 * rule.confidence, enough));
+  }
+  return objections;
 }
 
 std::string WhyWithoutEffect(const std::string& factor, const StudyPart& part) {

@@ -20,6 +20,9 @@ struct Contradiction {
 /// The study must have at most kMostCells cells.
 std::vector<Contradiction> FindContradictions(const Study& study);
 
+/// Why a part's rules (until, envelope) cannot work, for people; empty if they can.
+std::vector<std::string> RuleObjections(const StudyPart& part);
+
 /// Why the factor cannot matter in the part, for people; empty if it can.
 std::string WhyWithoutEffect(const std::string& factor, const StudyPart& part);
 

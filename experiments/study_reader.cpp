@@ -36,10 +36,7 @@ class StudyReader {
 
   Study Read() {
     const YAML::Node& root = reader_.root();
-    std::vector<std::string> keys{"fenestra_version",  "name", "description", "seed",
-                                  "independent_cells", "parts"};
-    keys.insert(keys.end(), BlockKeys().begin(), BlockKeys().end());
-    reader_.CheckKeys(root, "the study", keys);
+    reader_.CheckKeys(root, "the study", StudyKeys());
     if (!root.IsMap()) reader_.ThrowIfFaulty();
     Study study = ReadHead(root);
     const std::vector<PartDraft> drafts = ReadDrafts(root);
@@ -90,9 +87,7 @@ class StudyReader {
     std::vector<PartDraft> drafts;
     std::set<std::string> names;
     for (const YAML::Node& part : parts) {
-      std::vector<std::string> keys{"name"};
-      keys.insert(keys.end(), BlockKeys().begin(), BlockKeys().end());
-      reader_.CheckKeys(part, "a part", keys);
+      reader_.CheckKeys(part, "a part", PartKeys());
       if (!part.IsMap()) continue;
       drafts.push_back({ReadPartName(part), common, ReadBlock(reader_, part, known_)});
       if (!names.insert(drafts.back().name).second) {
@@ -134,7 +129,18 @@ class StudyReader {
                                                    "each cell gets",
                                                    part.name));
     }
+    part.until = draft.own.until ? draft.own.until : draft.common.until;
+    part.envelope = draft.own.envelope ? draft.own.envelope : draft.common.envelope;
+    if (draft.sound()) CheckRules(draft, part);
     return part;
+  }
+
+  void CheckRules(const PartDraft& draft, const StudyPart& part) {
+    for (const std::string& objection : RuleObjections(part)) {
+      const bool own = draft.own.until || draft.own.envelope;
+      reader_.AddFault(own ? draft.own.node : reader_.root(),
+                       fmt::format("part '{}': {}", part.name, objection));
+    }
   }
 
   std::vector<DetectorChoice> ResolveDetectors(const PartDraft& draft,
@@ -270,7 +276,23 @@ class StudyReader {
   std::span<const DetectorInfo> known_;
 };
 
+std::vector<std::string> WithBlockKeys(std::vector<std::string> keys) {
+  keys.insert(keys.end(), BlockKeys().begin(), BlockKeys().end());
+  return keys;
+}
+
 }  // namespace
+
+const std::vector<std::string>& StudyKeys() {
+  static const std::vector<std::string> keys = WithBlockKeys(
+      {"fenestra_version", "name", "description", "seed", "independent_cells", "parts"});
+  return keys;
+}
+
+const std::vector<std::string>& PartKeys() {
+  static const std::vector<std::string> keys = WithBlockKeys({"name"});
+  return keys;
+}
 
 Study ReadStudy(YamlReader reader, std::span<const DetectorInfo> known_detectors) {
   return StudyReader(std::move(reader), known_detectors).Read();

@@ -38,4 +38,8 @@ Study ReadStudy(YamlReader reader, std::span<const DetectorInfo> known_detectors
 Study ReadStudyFile(const std::filesystem::path& file,
                     std::span<const DetectorInfo> known_detectors);
 
+/// The keys of a study and of a part.
+const std::vector<std::string>& StudyKeys();
+const std::vector<std::string>& PartKeys();
+
 }  // namespace fenestra

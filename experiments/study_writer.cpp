@@ -85,6 +85,27 @@ std::string Text(const SamplingDesign& design) {
   return text;
 }
 
+std::string Text(const StoppingRule& rule) {
+  std::string text = fmt::format("    until:\n      first_look: {}\n", rule.first_look);
+  for (const auto& [figure, width] : rule.targets) {
+    text += fmt::format("      {}: {}\n", ToString(figure), width);
+  }
+  return text;
+}
+
+std::string Text(const EnvelopeRule& rule) {
+  std::string text =
+      fmt::format("    envelope:\n      over: {}\n      confidence: {}\n      require:\n",
+                  rule.over, rule.confidence);
+  const Requirement& require = rule.require;
+  if (require.hit_rate > 0.0) text += fmt::format("        hit_rate: {}\n", require.hit_rate);
+  if (require.p50_error_mm)
+    text += fmt::format("        p50_error_mm: {}\n", *require.p50_error_mm);
+  if (require.p95_error_mm)
+    text += fmt::format("        p95_error_mm: {}\n", *require.p95_error_mm);
+  return text;
+}
+
 std::string Text(const StudyPart& part) {
   std::string sensors;
   for (const SensorKind sensor : part.sensors) {
@@ -93,6 +114,8 @@ std::string Text(const StudyPart& part) {
   std::string text = fmt::format("  - name: {}\n    repetitions: {}\n    sensors: [{}]\n",
                                  part.name, part.repetitions, sensors);
   text += Text(part.design);
+  if (part.until) text += Text(*part.until);
+  if (part.envelope) text += Text(*part.envelope);
   text += "    detectors:\n";
   for (const DetectorChoice& detector : part.detectors) text += Text(detector);
   text += "    factors:\n";

@@ -35,5 +35,6 @@ void AddServeCommand(CLI::App& program, int& exit_code);
 void AddRatiosCommand(CLI::App& program, int& exit_code);
 void AddFixturesCommand(CLI::App& program, int& exit_code);
 void AddListCommand(CLI::App& program, int& exit_code);
+void AddStudyCommand(CLI::App& program, int& exit_code);
 
 }  // namespace fenestra::cli

@@ -100,6 +100,7 @@ int Main(int argc, char** argv) {
   AddServeCommand(program, exit_code);
   AddRatiosCommand(program, exit_code);
   AddFixturesCommand(program, exit_code);
+  AddStudyCommand(program, exit_code);
   AddListCommand(program, exit_code);
   try {
     program.parse(argc, argv);
