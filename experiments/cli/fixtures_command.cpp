@@ -9,6 +9,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
+#include "experiments/cli/progress.h"
 #include "experiments/fixtures/checksums.h"
 #include "experiments/fixtures/fixtures.h"
 #include "experiments/fixtures/staging_folder.h"
@@ -121,9 +122,16 @@ int MakeFixtures(const FixtureArguments& arguments) {
     return kDone;
   }
   fmt::print(stderr, "{}, about {}\n", what, estimate);
-  const InterruptWatch watch;
-  order.stop = [&watch] { return watch.requested(); };
-  if (!WriteFixtures(order)) {
+  bool whole = false;
+  {
+    const InterruptWatch watch;
+    Progress progress(Progress::ForStandardError());
+    progress.Start({.trials = static_cast<int64_t>(order.trials.size()), .tallies = {}});
+    order.stop = [&watch] { return watch.requested(); };
+    order.on_trial = [&progress] { progress.Add({}); };
+    whole = WriteFixtures(order);
+  }
+  if (!whole) {
     fmt::print(stderr, "fenestra: interrupted; nothing was left in {}\n", order.out.string());
     return kFailure;
   }
