@@ -7,7 +7,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kReach_px = 6.5;  // Four times the widest blur, with its pixel.
+constexpr double kSigmas = 4.8;
 constexpr int kPerPixel = 32;
 
 struct Gaussian {
@@ -26,10 +26,11 @@ BlurredStep::BlurredStep(double sigma_px, const Eigen::Vector2d& normal) {
   const double h = 0.5 * longer;
   const double sigma = std::sqrt(sigma_px * sigma_px + shorter * shorter / 12.0);
   const double whole = std::sqrt(sigma_px * sigma_px + 1.0 / 12.0);
-  const int count = static_cast<int>(2.0 * kReach_px * kPerPixel) + 2;
+  reach_px_ = std::ceil(kSigmas * std::max(sigma, whole) + h);
+  const int count = static_cast<int>(2.0 * reach_px_ * kPerPixel) + 2;
   table_.reserve(count);
   for (int i = 0; i < count; ++i) {
-    const double s = i / static_cast<double>(kPerPixel) - kReach_px;
+    const double s = i / static_cast<double>(kPerPixel) - reach_px_;
     const Gaussian after((s + h) / sigma);
     const Gaussian before((s - h) / sigma);
     const double grown = (s + h) * after.cumulative - (s - h) * before.cumulative +
@@ -43,9 +44,9 @@ BlurredStep::BlurredStep(double sigma_px, const Eigen::Vector2d& normal) {
 }
 
 BlurredStep::Value BlurredStep::At(double s_px) const {
-  if (s_px <= -kReach_px) return {.p = 0.0, .by_s = 0.0, .by_sigma = 0.0, .ramp = 0.0};
-  if (s_px >= kReach_px) return {.p = 1.0, .by_s = 0.0, .by_sigma = 0.0, .ramp = s_px};
-  const double place = (s_px + kReach_px) * kPerPixel;
+  if (s_px <= -reach_px_) return {.p = 0.0, .by_s = 0.0, .by_sigma = 0.0, .ramp = 0.0};
+  if (s_px >= reach_px_) return {.p = 1.0, .by_s = 0.0, .by_sigma = 0.0, .ramp = s_px};
+  const double place = (s_px + reach_px_) * kPerPixel;
   const auto i = static_cast<size_t>(place);
   const double share = place - static_cast<double>(i);
   const Value& a = table_[i];

@@ -30,6 +30,7 @@ class BlurredStep {
   Value At(double s_px) const;
 
  private:
+  double reach_px_;  // Farther away P is 0 or 1 to 1e-6.
   std::vector<Value> table_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 // What the model of lens and light is worth, for a whole side: what blur that varies across an edge
 // and pixels that are no perfect squares leave, where noise does not hide it.
-constexpr double kModelSigma_px = 0.002;
+constexpr double kModelSigma_px = 0.0004;
 // Residuals of more than this many times the side's median variance are of something else.
 constexpr double kMostExcess = 9.0;
 constexpr double kOwnExcess = 2.0;
@@ -23,6 +23,16 @@ double MedianSquare(const std::vector<StepFit>& fits) {
   const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
   std::nth_element(squares.begin(), middle, squares.end());
   return *middle;
+}
+
+// Relative change of the light across an edge, outwards [1/px].
+double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetting& vignetting) {
+  const CameraParameters& p = camera.parameters();
+  const Eigen::Vector2d focal_px(p.fx_px, p.fy_px);
+  const Eigen::Vector2d tangent =
+      (strip.pixel - Eigen::Vector2d(p.cx_px, p.cy_px)).cwiseQuotient(focal_px);
+  return -vignetting.power * tangent.dot(strip.normal.cwiseQuotient(focal_px)) /
+         (1.0 + tangent.squaredNorm());
 }
 
 // Strips with an edge, and their edges.
@@ -54,18 +64,28 @@ Fitted FitAll(const StepModel& model, std::vector<EdgeStrip> strips) {
 
 }  // namespace
 
-SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame,
-                      const SideRequest& request, const EdgeTuning& tuning) {
+SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const SideRequest& asked,
+                      const EdgeTuning& tuning) {
+  SideRequest request = asked;
+  if (!tuning.is_even) request.far_px = request.reach_px;
   SideEdges edges;
   edges.tuning = tuning;
   EdgeStrips cut = CutStrips(view, frame, request);
   edges.places = cut.places;
   if (cut.strips.empty()) return edges;
-  const StepModel model(request, tuning, cut.strips[cut.strips.size() / 2].normal);
+  const EdgeStrip& middle = cut.strips[cut.strips.size() / 2];
+  const StepModel model(request, tuning, middle.normal);
+  const double falloff = Falloff(view.camera, middle, request.vignetting);
   const Fitted fitted = FitAll(model, std::move(cut.strips));
   if (fitted.fits.empty()) return edges;
   const Learnt learnt =
-      Learn(model, fitted.strips, fitted.fits, fitted.median_square, request, tuning);
+      Learn(model, fitted.strips, fitted.fits, {.excess = fitted.median_square, .falloff = falloff},
+            request, tuning);
+  if (!learnt.tuning.is_even && request.far_px > request.reach_px) {
+    EdgeTuning uneven = tuning;
+    uneven.is_even = false;
+    return MeasureSide(view, frame, request, uneven);
+  }
   for (size_t i = 0; i < fitted.fits.size(); ++i) {
     const StepFit& fit = fitted.fits[i];
     const EdgeStrip& strip = fitted.strips[i];

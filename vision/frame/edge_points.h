@@ -38,6 +38,8 @@ struct EdgeTuning {
   double dark_variance = 1.0;  ///< Of the grey values on either side [DN²].
   double bright_variance = 1.0;
   double rise_dn = 0.0;  ///< Mean step; 0: not known yet. Only used where pixels are at full scale.
+  /// Whether pixels beyond SideRequest::reach_px fit as well as those within it.
+  bool is_even = true;
 
   double blur_px() const { return shared[0]; }
   double blur_change_px() const { return shared[1]; }
@@ -48,12 +50,25 @@ struct EdgeTuning {
 
 enum class Brighter { kOutside, kInside };
 
+/// How light falls off from the image's centre: grey values above black_dn as cos^power of the
+/// angle to the optical axis. 4 for natural vignetting, 0 where the camera corrects it.
+struct Vignetting {
+  double black_dn;
+  double power;
+};
+
 struct SideRequest {
   Side side;
   Border border;
   Brighter brighter;
-  double reach_px;  ///< Pixels up to here from the edge are used.
+  double reach_px;  ///< Pixels up to here from the edge are used,
+  /// and on the side that is away from the border up to here, while they are even.
+  double far_px;
   double min_contrast_dn;
+  Vignetting vignetting;
+
+  double inside_px() const { return border == Border::kOuter ? reach_px : far_px; }
+  double outside_px() const { return border == Border::kOuter ? far_px : reach_px; }
 };
 
 struct SideEdges {
@@ -68,6 +83,9 @@ struct SideEdges {
 /// dark side's to the bright one's with P. s0's variance is that of the fit, scaled by the
 /// residuals: by their median over the side's strips, since one has few pixels, or by the strip's
 /// own where these are more than twice as large. Strips without such an edge are left out.
+///
+/// Why the far pixels: in a few, a slope of the light beside the edge looks much like a shift of
+/// it.
 SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame,
                       const SideRequest& request, const EdgeTuning& tuning);
 

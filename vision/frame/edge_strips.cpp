@@ -12,24 +12,37 @@ constexpr double kLength_px = 8.0;
 constexpr int kFewest = 3;
 constexpr int kMost = 40;
 
-// Empty if one of them is outside the image.
-std::vector<StripPixel> Gather(const cv::Mat1b& image, const EdgeStrip& strip,
-                               double half_length_px, double reach_px) {
+// Upright box around a strip from `inside_px` on one side of the edge to `outside_px` on the other.
+cv::Rect BoxOf(const EdgeStrip& strip, double half_length_px, double inside_px, double outside_px) {
+  const Vector2d middle = strip.pixel + 0.5 * (outside_px - inside_px) * strip.normal;
   const Vector2d along(-strip.normal.y(), strip.normal.x());
-  const Vector2d extent = reach_px * strip.normal.cwiseAbs() + half_length_px * along.cwiseAbs();
-  const int u_first = static_cast<int>(std::ceil(strip.pixel.x() - extent.x()));
-  const int u_last = static_cast<int>(std::floor(strip.pixel.x() + extent.x()));
-  const int v_first = static_cast<int>(std::ceil(strip.pixel.y() - extent.y()));
-  const int v_last = static_cast<int>(std::floor(strip.pixel.y() + extent.y()));
+  const Vector2d extent =
+      0.5 * (outside_px + inside_px) * strip.normal.cwiseAbs() + half_length_px * along.cwiseAbs();
+  const cv::Point first(static_cast<int>(std::ceil(middle.x() - extent.x())),
+                        static_cast<int>(std::ceil(middle.y() - extent.y())));
+  const cv::Point end(static_cast<int>(std::floor(middle.x() + extent.x())) + 1,
+                      static_cast<int>(std::floor(middle.y() + extent.y())) + 1);
+  return {first, end};
+}
+
+// Empty if one of the near pixels is outside the image.
+std::vector<StripPixel> Gather(const cv::Mat1b& image, const EdgeStrip& strip,
+                               double half_length_px, const SideRequest& request) {
   std::vector<StripPixel> pixels;
-  if (u_first < 0 || v_first < 0 || u_last >= image.cols || v_last >= image.rows) return pixels;
-  pixels.reserve(static_cast<size_t>(u_last - u_first + 1) * (v_last - v_first + 1));
-  for (int v = v_first; v <= v_last; ++v) {
+  const cv::Rect whole({0, 0}, image.size());
+  const cv::Rect near = BoxOf(strip, half_length_px, request.reach_px, request.reach_px);
+  if ((near & whole) != near) return pixels;
+  const cv::Rect box =
+      BoxOf(strip, half_length_px, request.inside_px(), request.outside_px()) & whole;
+  const Vector2d along(-strip.normal.y(), strip.normal.x());
+  pixels.reserve(static_cast<size_t>(box.area()));
+  for (int v = box.y; v < box.br().y; ++v) {
     const uchar* row = image.ptr(v);
-    for (int u = u_first; u <= u_last; ++u) {
+    for (int u = box.x; u < box.br().x; ++u) {
       const Vector2d offset = Vector2d(u, v) - strip.pixel;
       const double s = offset.dot(strip.normal);
-      if (std::abs(s) > reach_px || std::abs(offset.dot(along)) > half_length_px) continue;
+      if (s > request.outside_px() || s < -request.inside_px()) continue;
+      if (std::abs(offset.dot(along)) > half_length_px) continue;
       pixels.push_back({s, static_cast<double>(row[u])});
     }
   }
@@ -63,7 +76,7 @@ EdgeStrips CutStrips(const CameraView& view, const FrameRectangle& frame,
     const Vector2d along = (*to - *from).normalized();
     EdgeStrip strip{
         .share = share, .pixel = *middle, .normal = {along.y(), -along.x()}, .pixels = {}};
-    strip.pixels = Gather(view.image, strip, 0.5 * (*to - *from).norm(), request.reach_px);
+    strip.pixels = Gather(view.image, strip, 0.5 * (*to - *from).norm(), request);
     if (strip.pixels.size() >= 8) cut.strips.push_back(std::move(strip));
   }
   return cut;

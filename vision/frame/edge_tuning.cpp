@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Shared = Eigen::Matrix<double, EdgeTuning::kShared, 1>;
+using Shared = BySharedTuning;
 using SharedMatrix = Eigen::Matrix<double, EdgeTuning::kShared, EdgeTuning::kShared>;
 
 constexpr double kLeastVariance = 1.0 / 12.0;  // Of a grey value that is rounded.
@@ -23,7 +23,12 @@ constexpr double kLargestBlurChange_px = 0.15;
 // What lenses and walls are like where an edge does not tell: standard deviations of a priori laws.
 constexpr double kBlurSigma_px = 0.2;
 constexpr double kBlurChangeSigma_px = 0.03;
-constexpr double kSlopeSigma = 0.002;  // Of the step's height, per pixel; vignetting has 0.001.
+// Of the light's change per pixel: lenses' barrels and uneven light leave as much of vignetting.
+constexpr double kFalloffSigma = 0.0002;
+constexpr double kLeastSlopeSigma = 0.0001;  // Stray light, as a share of the step.
+constexpr double kTail = 0.5;                // Of a slope's departure from what is expected.
+// Where farther pixels' residuals are larger by this factor something else begins.
+constexpr double kUneven = 1.3;
 
 // Weighted mean of the strips' steps.
 class MeanRise {
@@ -68,18 +73,62 @@ class SideVariances {
   std::array<double, 2> counts_ = {};
 };
 
+// Residuals near the edge and farther from it.
+class Evenness {
+ public:
+  explicit Evenness(double reach_px) : reach_px_(reach_px) {}
+  void Add(const StripPixel& pixel, double square) {
+    const size_t i = std::abs(pixel.s_px) > reach_px_ ? 1 : 0;
+    squares_[i] += square;
+    counts_[i] += 1.0;
+  }
+  bool Holds() const { return squares_[1] * counts_[0] <= kUneven * squares_[0] * counts_[1]; }
+
+ private:
+  double reach_px_;
+  std::array<double, 2> squares_ = {};
+  std::array<double, 2> counts_ = {};
+};
+
+// What blur and slopes are before the side is seen.
+struct Expected {
+  Shared mean = EdgeTuning{}.shared;
+  Shared sigma;
+};
+
+Expected ExpectedOf(const std::vector<StepFit>& fits, double falloff, double black_dn) {
+  double base_dn = 0.0;
+  double rise_dn = 0.0;
+  for (const StepFit& fit : fits) {
+    base_dn += fit.base_dn / static_cast<double>(fits.size());
+    rise_dn += fit.rise_dn / static_cast<double>(fits.size());
+  }
+  const double outside = std::max(0.0, base_dn + rise_dn - black_dn) / rise_dn;
+  const double inside = std::max(0.0, base_dn - black_dn) / rise_dn;
+  Expected expected;
+  expected.mean[3] = falloff * outside;
+  expected.mean[4] = falloff * inside;
+  expected.sigma << kBlurSigma_px, kBlurChangeSigma_px, kBlurChangeSigma_px,
+      std::hypot(kFalloffSigma * outside, kLeastSlopeSigma),
+      std::hypot(kFalloffSigma * inside, kLeastSlopeSigma);
+  return expected;
+}
+
 // Blur and slopes, with the strips' own unknowns eliminated.
 class SharedEquations {
  public:
-  SharedEquations(const StepModel& model, const Shared& now) : model_(model) {
-    Shared sigma;
-    sigma << kBlurSigma_px, kBlurChangeSigma_px, kBlurChangeSigma_px, kSlopeSigma, kSlopeSigma;
+  SharedEquations(const StepModel& model, const Shared& now, const Expected& expected)
+      : model_(model) {
+    const Shared off = expected.mean - now;
+    Shared sigma = expected.sigma;
+    for (const int slope : {3, 4})
+      sigma[slope] = std::max(sigma[slope], kTail * std::abs(off[slope]));
     information_ = SharedMatrix(sigma.cwiseAbs2().cwiseInverse().asDiagonal());
-    gradient_ = information_ * (EdgeTuning{}.shared - now);
+    gradient_ = information_ * off;
   }
   // Returns the inverse of the information on the strip's own unknowns.
-  Matrix3d Add(const EdgeStrip& strip, const StepFit& fit, double excess,
-               SideVariances& variances) {
+  Matrix3d Add(const EdgeStrip& strip, const StepFit& fit, double excess, SideVariances& variances,
+               Evenness& evenness) {
     Matrix3d own = model_.PriorInformation(strip);
     Vector3d own_gradient = Vector3d::Zero();
     Eigen::Matrix<double, 3, EdgeTuning::kShared> mixed;
@@ -91,17 +140,19 @@ class SharedEquations {
       if (!value.counts) continue;
       const double residual = pixel.grey_dn - value.grey_dn;
       own.noalias() += value.weight * value.by_own * value.by_own.transpose();
+      const Shared by_shared = model_.LineariseShared(fit, strip.share, pixel);
       own_gradient += value.weight * residual * value.by_own;
-      mixed.noalias() += value.weight * value.by_own * value.by_shared.transpose();
-      information.noalias() += value.weight * value.by_shared * value.by_shared.transpose();
-      gradient += value.weight * residual * value.by_shared;
+      mixed.noalias() += value.weight * value.by_own * by_shared.transpose();
+      information.noalias() += value.weight * by_shared * by_shared.transpose();
+      gradient += value.weight * residual * by_shared;
       variances.Add(value, residual);
+      evenness.Add(pixel, value.weight * residual * residual);
     }
     const Matrix3d inverse = own.inverse();
-    const Eigen::Matrix<double, 3, EdgeTuning::kShared> by_shared = inverse * mixed;
-    information_ += (information - mixed.transpose() * by_shared) / excess;
-    gradient_ += (gradient - by_shared.transpose() * own_gradient) / excess;
-    edge_by_shared_ -= by_shared.row(2).transpose();
+    const Eigen::Matrix<double, 3, EdgeTuning::kShared> own_by_shared = inverse * mixed;
+    information_ += (information - mixed.transpose() * own_by_shared) / excess;
+    gradient_ += (gradient - own_by_shared.transpose() * own_gradient) / excess;
+    edge_by_shared_ -= own_by_shared.row(2).transpose();
     ++count_;
     return inverse;
   }
@@ -123,15 +174,17 @@ class SharedEquations {
 }  // namespace
 
 Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
-             const std::vector<StepFit>& fits, double excess, const SideRequest& request,
+             const std::vector<StepFit>& fits, const SideFacts& facts, const SideRequest& request,
              const EdgeTuning& tuning) {
-  excess = std::max(excess, kLeastExcess);
-  SharedEquations equations(model, tuning.shared);
+  const double excess = std::max(facts.excess, kLeastExcess);
+  SharedEquations equations(model, tuning.shared,
+                            ExpectedOf(fits, facts.falloff, request.vignetting.black_dn));
   SideVariances variances;
+  Evenness evenness(request.reach_px);
   MeanRise rise;
   bool full = false;
   for (size_t i = 0; i < strips.size(); ++i) {
-    rise.Add(fits[i], equations.Add(strips[i], fits[i], excess, variances), excess);
+    rise.Add(fits[i], equations.Add(strips[i], fits[i], excess, variances, evenness), excess);
     full |= model.PriorInformation(strips[i])(1, 1) > 0.0;
   }
   Learnt learnt{.tuning = tuning};
@@ -146,6 +199,7 @@ Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
   }
   variances.Put(request.brighter, learnt.tuning);
   learnt.tuning.rise_dn = rise.Value();
+  learnt.tuning.is_even = tuning.is_even && evenness.Holds();
   learnt.common_sigma_px = std::sqrt(equations.EdgeVariance() + (full ? rise.EdgeVariance() : 0.0));
   return learnt;
 }

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/frame/frame_setback.h"
-
 namespace fenestra {
 namespace {
 
-constexpr double kRebate_m = 0.085;
+constexpr double kRebate_m = 0.07;
+// A thick frame flush with the wall, or a thin one that stands back: between these nothing tells.
+constexpr double kThickest_m = 0.11;
+constexpr double kEither_m = 0.05;
 // Of inner sides that tell the frame's depth.
 constexpr double kKnownRelief_m = 0.02;
 // How far frames stand back where nothing tells: windows are set up to 10 cm deep.
@@ -50,24 +51,24 @@ void AddParallax(FrameFit& fit, double depth_m) {
 
 }  // namespace
 
-void StandBack(std::span<const CameraView> views, double black_dn, FrameFit& fit) {
+void StandBack(std::span<const CameraView> views, const RevealGrey& grey, FrameFit& fit) {
   const double inner_m = fit.adjustment.frame.inner_relief_m;
   const double sigma_m = std::sqrt(fit.adjustment.covariance(13, 13));
   fit.knows_depth = sigma_m > 0.0 && sigma_m < kKnownRelief_m;
   if (inner_m + 2.0 * sigma_m > -kRebate_m) return;  // A far frame's thickness is but guessed.
-  const auto reveal = FindSetback(views, fit.adjustment.frame, black_dn);
+  const auto reveal = FindSetback(views, fit.adjustment.frame, grey);
   const Setback inner = Both(kUsual, {kPanes.mean_m - inner_m, std::hypot(sigma_m, kInnerSides_m)});
   const bool agree = reveal && reveal->mean_m > 0.0 &&
                      std::abs(reveal->mean_m - inner.mean_m) < 2.0 * inner.sigma_m;
-  const Setback& setback = agree ? *reveal : inner;
+  const bool either = inner_m > -kThickest_m;
+  const Setback setback = agree ? *reveal : either ? Setback{0.0, kEither_m} : inner;
   MoveBack(fit, setback);
-  AddParallax(fit, setback.mean_m);
+  AddParallax(fit, std::max(setback.mean_m, setback.sigma_m));
   fit.knows_depth = true;
 }
 
-void SettleDepth(std::span<const CameraView> views, double black_dn, FrameFit& fit) {
-  const auto setback =
-      fit.is_flat ? FindSetback(views, fit.adjustment.frame, black_dn) : std::nullopt;
+void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, FrameFit& fit) {
+  const auto setback = fit.is_flat ? FindSetback(views, fit.adjustment.frame, grey) : std::nullopt;
   MoveBack(fit, setback.value_or(Setback{0.0, kUnknownSetback_m}));
   const double depth_m = setback ? std::max(setback->mean_m, setback->sigma_m) : kUnknownSetback_m;
   if (depth_m > 0.0) AddParallax(fit, depth_m);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "vision/frame/frame_depth.h"
+#include "vision/frame/frame_support.h"
 
 namespace fenestra {
 namespace {
@@ -21,6 +21,8 @@ constexpr std::array<double, 3> kCoarseTolerances_px = {0.7, 0.7, 0.7};
 constexpr double kLeastReach_px = 1.6;
 // Of the places along the inner sides; with fewer the border is left out.
 constexpr double kLeastInnerSupport = 0.5;
+// Of each of them: upper and lower ones alone do not tell their depth.
+constexpr double kLeastOfInnerSide = 0.3;
 // With fewer in a first round it is not worth while to go on.
 constexpr double kHopelessSupport = 0.3;
 // Residuals where all sides are what they are taken for: so many of their standard deviations, or
@@ -50,29 +52,6 @@ double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
   return least;
 }
 
-struct PlaceCounts {
-  std::vector<std::array<int, 4>> outer;  // By view and side.
-  int inner = 0;
-};
-
-void CountSupport(const PlaceCounts& places, FrameFit& fit) {
-  double inner = 0.0;
-  for (size_t view = 0; view < fit.points.size(); ++view) {
-    std::array<double, 4> outer = {};
-    for (size_t i = 0; i < fit.points[view].size(); ++i) {
-      if (!fit.adjustment.is_inlier[view][i]) continue;
-      const EdgePoint& point = fit.points[view][i];
-      (point.border == Border::kOuter ? outer[static_cast<size_t>(point.side)] : inner) += 1.0;
-    }
-    for (size_t side = 0; side < 4; ++side) {
-      if (places.outer[view][side] == 0) continue;
-      fit.outer_support[side] =
-          std::max(fit.outer_support[side], outer[side] / places.outer[view][side]);
-    }
-  }
-  if (places.inner > 0) fit.inner_support = inner / places.inner;
-}
-
 bool IsConsistent(const FrameFit& fit) {
   double sum_px = 0.0;
   double count = 0.0;
@@ -84,20 +63,20 @@ bool IsConsistent(const FrameFit& fit) {
   return scale < kMostScale || scale * sum_px / count < kMostOff_px;
 }
 
+bool HasInnerSides(const FrameFit& fit) {
+  return fit.inner_support >= kLeastInnerSupport && fit.LeastInnerSupport() >= kLeastOfInnerSide;
+}
+
+RevealGrey RevealGreyOf(const FrameFitSettings& settings) {
+  return {.black_dn = settings.vignetting.black_dn, .min_contrast_dn = settings.min_contrast_dn};
+}
+
 double SigmaAlongNormal(const FrameFit& fit) {
   const Eigen::Vector3d normal = fit.adjustment.frame.R_LO.col(2);
   return std::sqrt(normal.dot(fit.adjustment.covariance.block<3, 3>(3, 3) * normal));
 }
 
 }  // namespace
-
-double FrameFit::LeastSupport() const {
-  return *std::min_element(outer_support.begin(), outer_support.end());
-}
-
-double FrameFit::MeanSupport() const {
-  return std::accumulate(outer_support.begin(), outer_support.end(), 0.0) / 4.0;
-}
 
 int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
                          std::vector<EdgePoint>& points) {
@@ -115,15 +94,19 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
   fit.points.resize(views_.size());
   PlaceCounts places;
   places.outer.resize(views_.size());
+  places.inner.resize(views_.size());
   for (size_t view = 0; view < views_.size(); ++view) {
     const double reach_px = border_ ? std::clamp(0.5 * BorderPixels(views_[view], frame),
                                                  kLeastReach_px, settings_.reach_px)
                                     : settings_.reach_px;
-    SideRequest request{.side = Side::kTop,
-                        .border = Border::kOuter,
-                        .brighter = Brighter::kOutside,
-                        .reach_px = reach_px,
-                        .min_contrast_dn = settings_.min_contrast_dn};
+    SideRequest request{
+        .side = Side::kTop,
+        .border = Border::kOuter,
+        .brighter = Brighter::kOutside,
+        .reach_px = reach_px,
+        .far_px = tolerance_px > 0.0 ? reach_px : std::max(reach_px, settings_.far_px),
+        .min_contrast_dn = settings_.min_contrast_dn,
+        .vignetting = settings_.vignetting};
     for (const Side side : kAllSides) {
       const auto s = static_cast<size_t>(side);
       request.side = side;
@@ -135,7 +118,7 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
       request.brighter = border_->brighter[s];
       SideRequest inner = request;
       inner.min_contrast_dn = settings_.border.min_contrast_dn;
-      places.inner += Measure(view, frame, inner, fit.points[view]);
+      places.inner[view][s] = Measure(view, frame, inner, fit.points[view]);
     }
   }
   for (std::vector<EdgePoint>& points : fit.points) {
@@ -151,7 +134,7 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
 }
 
 std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& knowledge,
-                                            const std::array<double, 3>& tolerances_px) {
+                                            std::span<const double> tolerances_px) {
   for (size_t i = 0; i < tolerances_px.size(); ++i) {
     FrameKnowledge now = knowledge;
     if (i + 1 == tolerances_px.size()) now.size = settings_.size;
@@ -167,15 +150,13 @@ std::optional<FrameFit> FrameFitter::FitRoughly(const FrameRectangle& start) {
 }
 
 std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
-  if (border_) {
-    // One round tells whether the inner sides are in that plane at all.
-    const auto first = Round(start.adjustment.frame, {}, kPlaneTolerances_px[0]);
-    if (!first || first->inner_support < kHopelessSupport) return std::nullopt;
-  }
-  auto fit = Rounds(start, {}, kPlaneTolerances_px);
+  auto fit = Round(start.adjustment.frame, {}, kPlaneTolerances_px[0]);
+  // One round tells whether the inner sides are in that plane at all.
+  if (!fit || (border_ && fit->inner_support < kHopelessSupport)) return std::nullopt;
+  fit = Rounds(std::move(*fit), {}, std::span(kPlaneTolerances_px).subspan<1>());
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
   if (border_) {
-    if (fit->inner_support < kLeastInnerSupport || !IsConsistent(*fit)) return std::nullopt;
+    if (!HasInnerSides(*fit) || !IsConsistent(*fit)) return std::nullopt;
     // Nor may they be better explained by another one.
     const auto freed = Round(fit->adjustment.frame, kFree, kPlaneTolerances_px.back());
     if (freed && std::abs(freed->adjustment.frame.inner_relief_m) >
@@ -188,19 +169,19 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
 }
 
 std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
-  const auto first = Round(start.adjustment.frame, kFree, kPlaneTolerances_px[0]);
-  std::optional<FrameFit> fit;
-  if (first && first->inner_support >= kHopelessSupport) {
-    fit = Rounds(start, kFree, kPlaneTolerances_px);
+  auto fit = Round(start.adjustment.frame, kFree, kPlaneTolerances_px[0]);
+  if (fit && fit->inner_support >= kHopelessSupport) {
+    fit = Rounds(std::move(*fit), kFree, std::span(kPlaneTolerances_px).subspan<1>());
+  } else {
+    fit.reset();
   }
-  if (!fit || fit->LeastSupport() < kFlatSupport || fit->inner_support < kLeastInnerSupport ||
-      !IsConsistent(*fit)) {
+  if (!fit || fit->LeastSupport() < kFlatSupport || !HasInnerSides(*fit) || !IsConsistent(*fit)) {
     border_.reset();
     fit = Rounds(start, {}, kPlaneTolerances_px);
   }
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
   // Where planes were measured, they and what is known of their offset say where the front is.
-  if (settings_.planes.empty()) StandBack(views_, settings_.black_dn, *fit);
+  if (settings_.planes.empty()) StandBack(views_, RevealGreyOf(settings_), *fit);
   return fit;
 }
 
@@ -228,7 +209,7 @@ std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
   }
   if (!fit) fit = FitInRelief(start);
   if (fit && !fit->knows_depth && settings_.planes.empty()) {
-    SettleDepth(views_, settings_.black_dn, *fit);
+    SettleDepth(views_, RevealGreyOf(settings_), *fit);
   }
   if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
   if (fit->LeastSupport() < settings_.min_side_support) {

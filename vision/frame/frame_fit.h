@@ -15,26 +15,29 @@ namespace fenestra {
 struct FrameFitSettings {
   double min_contrast_dn;
   double reach_px;          ///< Pixels up to here from an edge are used, unless another is nearer.
+  double far_px;            ///< The same away from the border, once the rectangle is known well.
   double min_side_support;  ///< Share of an outer side's places with its edge.
   BorderSearch border;
   std::optional<SizePrior> size;  ///< Used in the last adjustment only.
   std::vector<PlaneMeasurement> planes{};
-  double black_dn = 8.0;  ///< Grey value without light.
+  Vignetting vignetting;
 };
 
 struct FrameFit {
   FrameAdjustment adjustment;
   std::vector<std::vector<EdgePoint>> points;  ///< By view.
-  /// Shares of the places along the sides where the frame's edge was found: by outer side in
-  /// the better view, and of all inner sides.
+  /// Shares of the places along the sides where the frame's edge was found: by side in the better
+  /// view, and of all inner sides.
   std::array<double, 4> outer_support = {};
+  std::array<double, 4> inner_supports = {};
   double inner_support = 0.0;
   bool is_flat = true;  ///< Whether the outer sides are in one plane, as well as the images tell.
   /// Whether the frame's own depth was seen, by its inner sides, and not only the outer ones',
   /// which may be the wall's.
   bool knows_depth = false;
 
-  double LeastSupport() const;
+  double LeastSupport() const;  ///< Of the outer sides.
+  double LeastInnerSupport() const;
   double MeanSupport() const;
 };
 
@@ -56,7 +59,7 @@ class FrameFitter {
   /// edges bear out:
   ///
   ///   1. all sides in one plane: a painted or a flush frame;
-  ///   2. the outer sides in one plane, the inner ones in another. Up to 8.5 cm behind it that is
+  ///   2. the outer sides in one plane, the inner ones in another. Up to 7 cm behind it that is
   ///      the depth of the frame. Farther back, what is seen as the outer sides is the wall's face,
   ///      and the frame stands back in it;
   ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame
@@ -77,7 +80,7 @@ class FrameFitter {
   std::optional<FrameFit> FitBeforePanes(const FrameFit& start);
   std::optional<FrameFit> FitInRelief(const FrameFit& start);
   std::optional<FrameFit> Rounds(FrameFit fit, const FrameKnowledge& knowledge,
-                                 const std::array<double, 3>& tolerances_px);
+                                 std::span<const double> tolerances_px);
   int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
               std::vector<EdgePoint>& points);
 

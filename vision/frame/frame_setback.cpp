@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kShallowest_m = 0.05;
 constexpr double kDeepest_m = 0.30;
-constexpr double kNarrowest_px = 2.5;  // Of a reveal that is told from the blur beside it.
-constexpr double kClear_px = 1.2;      // From an edge, so that its blur is left behind.
+constexpr double kNarrowest_px = 4.5;  // Of a reveal that is told from the blur beside it.
+constexpr double kClear_px = 2.0;      // From an edge, so that its blur is left behind.
 constexpr double kEdge_px = 0.7;       // How well an edge in a mean profile is known.
 const double kDarker = std::log(1.5);  // From reveal to frame; paints differ by more.
 constexpr double kLeastSigma_m = 0.015;
@@ -49,44 +49,51 @@ struct Reveal {
   Setback setback{};
 };
 
-// Natural logarithm of the mean grey value at this inset.
-std::optional<double> LogGrey(const CameraView& view, FrameRectangle frame, Side side,
+// Mean grey value above black at this inset.
+std::optional<double> LightAt(const CameraView& view, FrameRectangle frame, Side side,
                               double inset_m, double black_dn) {
   frame.border_m = inset_m;
   frame.inner_relief_m = 0.0;
   const auto grey = MeanAlong(view, frame, side);
   if (!grey) return std::nullopt;
-  return std::log(std::max(1.0, *grey - black_dn));
+  return std::max(1.0, *grey - black_dn);
+}
+
+// Natural logarithm of the one over the other, 0 where noise alone may part them.
+double LogRatio(double bright, double dark, double min_contrast_dn) {
+  return std::abs(bright - dark) < min_contrast_dn ? 0.0 : std::log(bright / dark);
 }
 
 Reveal LookForReveal(const CameraView& view, const FrameRectangle& frame, Side side,
-                     double black_dn) {
+                     const RevealGrey& grey) {
   const SideView look = Look(view, frame, side);
   Reveal reveal;
   if (look.inwards_m <= 0.0 || look.distance_m <= 0.0) return reveal;
   const double step_m = 0.5 * look.pixel_m;
   const double most_m =
       std::min(look.Inset(kDeepest_m), 0.3 * std::min(frame.width_m, frame.height_m));
+  const double clear_m = kClear_px * look.pixel_m;
   double darkest = 0.0;
-  double brightest = 0.0;
   double where_m = 0.0;
-  for (double t = 2.0 * kClear_px * look.pixel_m; t < most_m; t += step_m) {
-    const auto before = LogGrey(view, frame, side, t - kClear_px * look.pixel_m, black_dn);
-    const auto after = LogGrey(view, frame, side, t + kClear_px * look.pixel_m, black_dn);
+  double t = 2.0 * clear_m;
+  for (; t < most_m; t += step_m) {
+    const auto before = LightAt(view, frame, side, t - clear_m, grey.black_dn);
+    const auto after = LightAt(view, frame, side, t + clear_m, grey.black_dn);
     if (!before || !after) continue;
-    brightest = std::max(brightest, *after - *before);
-    if (*before - *after <= darkest) continue;
-    darkest = *before - *after;
+    const double darker = LogRatio(*before, *after, grey.min_contrast_dn);
+    if (darker < -kDarker) break;  // The opening: here the frame ends.
+    if (darker <= darkest) continue;
+    darkest = darker;
     where_m = t;
   }
-  if (brightest > kDarker) return reveal;  // A shadow, or an opening: neither for nor against.
   if (darkest > kDarker) {
     const double depth_m = look.Depth(where_m);
     const double by_inset =
         look.distance_m * look.inwards_m / std::pow(look.inwards_m - where_m, 2);
     reveal.sight = Sight::kReveal;
     reveal.setback = {depth_m, std::max(kLeastSigma_m, by_inset * kEdge_px * look.pixel_m)};
-  } else if (look.Inset(kShallowest_m) > kNarrowest_px * look.pixel_m) {
+  } else if (look.Inset(kShallowest_m) > kNarrowest_px * look.pixel_m &&
+             t > look.Inset(kShallowest_m) + clear_m) {
     reveal.sight = Sight::kNoReveal;
   }
   return reveal;
@@ -114,12 +121,12 @@ std::vector<Sighting> Agreeing(const std::vector<Sighting>& seen) {
 }  // namespace
 
 std::optional<Setback> FindSetback(std::span<const CameraView> views, const FrameRectangle& frame,
-                                   double black_dn) {
+                                   const RevealGrey& grey) {
   std::vector<Sighting> seen;
   int without = 0;
   for (const CameraView& view : views) {
     for (const Side side : kAllSides) {
-      const Reveal reveal = LookForReveal(view, frame, side, black_dn);
+      const Reveal reveal = LookForReveal(view, frame, side, grey);
       if (reveal.sight == Sight::kReveal) seen.push_back({side, reveal.setback});
       if (reveal.sight == Sight::kNoReveal) ++without;
     }

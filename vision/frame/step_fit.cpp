@@ -40,13 +40,21 @@ StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixe
   value.p = at.p;
   value.grey_dn = fit.base_dn + fit.rise_dn * shape;
   value.by_own = {1.0, shape, -fit.rise_dn * at.by_s};
-  value.by_shared << at.by_sigma, tau * at.by_sigma, bend * at.by_sigma, at.ramp, inside;
-  value.by_shared *= fit.rise_dn;
   const double bright_share = request_.brighter == Brighter::kOutside ? at.p : 1.0 - at.p;
   value.weight = 1.0 / (tuning_.dark_variance +
                         bright_share * (tuning_.bright_variance - tuning_.dark_variance));
   value.counts = pixel.grey_dn < kFullScale_dn || value.grey_dn < kFullScale_dn;
   return value;
+}
+
+BySharedTuning StepModel::LineariseShared(const StepFit& fit, double share,
+                                          const StripPixel& pixel) const {
+  const double x = pixel.s_px - fit.s0_px;
+  const BlurredStep::Value at = step_.At(x);
+  const double tau = Along(share);
+  const double bend = tau * tau - 1.0 / 3.0;
+  return fit.rise_dn *
+         BySharedTuning{at.by_sigma, tau * at.by_sigma, bend * at.by_sigma, at.ramp, x - at.ramp};
 }
 
 std::optional<StepFit> StepModel::Start(const EdgeStrip& strip) const {

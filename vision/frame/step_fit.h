@@ -29,10 +29,10 @@ struct StepValue {
   double p;  ///< Share of the outer grey value.
   double grey_dn;
   Eigen::Vector3d by_own;  ///< a, g, s0.
-  Eigen::Matrix<double, EdgeTuning::kShared, 1> by_shared;
   double weight;
   bool counts;
 };
+using BySharedTuning = Eigen::Matrix<double, EdgeTuning::kShared, 1>;
 
 /// Spread of the steps along one side, as a share of them.
 inline constexpr double kRiseSpread = 0.03;
@@ -42,6 +42,8 @@ class StepModel {
   StepModel(const SideRequest& request, const EdgeTuning& tuning, const Eigen::Vector2d& normal);
 
   StepValue At(const StepFit& fit, double share, const StripPixel& pixel) const;
+  /// Its derivative by what all strips of the side share.
+  BySharedTuning LineariseShared(const StepFit& fit, double share, const StripPixel& pixel) const;
   /// nullopt where there is no such edge within 0.7 of the reach.
   std::optional<StepFit> Fit(const EdgeStrip& strip) const;
   /// Information on a strip's own unknowns from the rest of the side.

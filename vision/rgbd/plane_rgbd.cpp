@@ -20,6 +20,7 @@ namespace fenestra {
 namespace {
 
 constexpr double kReach_px = 4.0;  // Of pixels that an edge is fitted to.
+constexpr double kFar_px = 8.0;    // The same where the light is even.
 // Half a depth pixel's window, and a pixel for the place of its evidence.
 constexpr double kClearWindows = 0.5;
 constexpr double kClear_px = 1.0;
@@ -119,11 +120,14 @@ PlaneRgbdDetector::PlaneRgbdDetector(const RgbdCalibration& calibration,
       darkness_{.black_dn = 0.0, .min_contrast_dn = options.min_contrast_dn, .reach_px = 4.0},
       fitting_{.min_contrast_dn = options.min_contrast_dn,
                .reach_px = kReach_px,
+               .far_px = kFar_px,
                .min_side_support = options.min_side_support,
                .border = {.smallest_m = options.min_border_m,
                           .largest_share = options.max_border_share,
                           .min_contrast_dn = options.min_contrast_dn},
-               .size = SizePriorOf(options.prior)},
+               .size = SizePriorOf(options.prior),
+               .planes = {},
+               .vignetting = {.black_dn = 0.0, .power = options.vignetting_power}},
       noise_(NoiseOf(calibration, options, reader_)),
       limits_{.nearest_m = options.nearest_m,
               .farthest_m = options.farthest_m,

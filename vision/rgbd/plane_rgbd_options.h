@@ -18,7 +18,8 @@ struct PlaneRgbdOptions {
   double max_taper = 0.25;
 
   // How it may look.
-  double min_contrast_dn = 6.0;  ///< As edge-stereo's.
+  double min_contrast_dn = 6.0;   ///< As edge-stereo's.
+  double vignetting_power = 4.5;  ///< As edge-stereo's.
   /// A third of the shortest side that is looked for at 5 m.
   double min_segment_px = 10.0;
   int most_segments = 150;        ///< As edge-stereo's.

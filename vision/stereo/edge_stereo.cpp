@@ -13,6 +13,8 @@ namespace fenestra {
 namespace {
 
 constexpr double kReach_px = 4.0;
+// Where light is even, so far beside an edge its level is told well enough.
+constexpr double kFar_px = 8.0;
 // Fits that may fail before a pair is given up: each takes some milliseconds.
 constexpr int kMostFinished = 4;
 // Candidates that begin with less than this share of the best one's score are not measured.
@@ -55,13 +57,14 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                 .reach_px = 4.0},
       fitting_{.min_contrast_dn = options.min_contrast_dn,
                .reach_px = kReach_px,
+               .far_px = kFar_px,
                .min_side_support = options.min_side_support,
                .border = {.smallest_m = options.min_border_m,
                           .largest_share = options.max_border_share,
                           .min_contrast_dn = kInnerContrast * options.min_contrast_dn},
                .size = SizePriorOf(options.prior),
                .planes = {},
-               .black_dn = options.black_dn} {}
+               .vignetting = {.black_dn = options.black_dn, .power = options.vignetting_power}} {}
 
 Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   const StereoObservation& seen = StereoPart(observation);

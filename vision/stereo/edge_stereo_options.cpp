@@ -40,6 +40,8 @@ void AddLook(Table& table) {
       .Number("min_contrast_dn", FENESTRA_FIELD(min_contrast_dn), {1.0, 255.0},
               "weakest step of an edge")
       .Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "grey value without light")
+      .Number("vignetting_power", FENESTRA_FIELD(vignetting_power), {0.0, 10.0},
+              "light falls off as this power of the cosine to the optical axis; 0: corrected")
       .Number("min_segment_px", FENESTRA_FIELD(min_segment_px), {4.0, 1000.0},
               "shortest piece of a straight edge")
       .Integer("most_segments", FENESTRA_FIELD(most_segments), {4.0, 200.0},

@@ -24,6 +24,9 @@ struct EdgeStereoOptions {
   double min_contrast_dn = 6.0;
   /// 32 of 1023, the usual pedestal of a sensor's ADC, as 8 bits show it.
   double black_dn = 8.0;
+  /// Light falls off as this power of the cosine of the angle to the optical axis: 4 by nature, and
+  /// a barrel takes about a tenth more towards the corners; 0 for cameras that correct it.
+  double vignetting_power = 4.5;
   /// A third of the shortest side that is looked for at 10 m.
   double min_segment_px = 12.0;
   /// Textured walls have thousands; a frame's sides are among the longest and strongest.

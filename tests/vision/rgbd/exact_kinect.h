@@ -10,7 +10,8 @@ namespace fenestra::testing {
 /// An exact frame before an RGB-D sensor. Its pose X_LO is that in D. Grey values are linear: 255
 /// is full scale.
 struct ExactKinectScene {
-  ExactFrame frame{.X_LO = {}, .wall_dn = 60.0, .frame_dn = 4.0, .opening_dn = 60.0};
+  ExactFrame frame{
+      .X_LO = {}, .wall_dn = 60.0, .frame_dn = 4.0, .opening_dn = 60.0, .black_dn = 0.0};
   double setback_m = 0.0;      ///< Of the frame's front behind the wall.
   bool frame_returns = false;  ///< Depth on the frame.
   double opening_m = 0.0;  ///< Depth of what is seen in the opening behind the front; < 0: none.

@@ -196,7 +196,7 @@ bool IsHonest(double normalised_square, int count) {
          normalised_square < quantile(distribution, 0.995);
 }
 
-TEST(PlaneRgbd, DISABLED_CovarianceIsHonest) {
+TEST(PlaneRgbd, CovarianceIsHonest) {
   double sum = 0.0;
   int count = 0;
   for (const Look& look : kLooks) {

@@ -44,7 +44,7 @@ class SetBack : public ::testing::TestWithParam<View> {
   }
 };
 
-TEST_P(SetBack, DISABLED_IsFoundWhereItStandsOrTheCovarianceSaysSo) {
+TEST_P(SetBack, IsFoundWhereItStandsOrTheCovarianceSaysSo) {
   for (const double opening_dn : {12.0, 40.0}) {
     const ExactFrame frame = Frame(opening_dn);
     const WindowEstimate estimate = Find(frame, 1);
@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(Views, SetBack,
                                            View{.distance_m = 4.0, .azimuth_deg = -40.0},
                                            View{.distance_m = 8.0, .azimuth_deg = 10.0}));
 
-TEST(FlushFrame, DISABLED_IsNotTakenForOneThatStandsBack) {
+TEST(FlushFrame, IsNotTakenForOneThatStandsBack) {
   ExactFrame frame{.X_LO = WindowSeenFrom({.distance_m = 2.5, .azimuth_deg = 15.0})};
   frame.opening_dn = frame.frame_dn;  // Nothing but the missing reveal tells.
   const WindowEstimate estimate = Find(frame, 2);

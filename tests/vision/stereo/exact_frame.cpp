@@ -133,7 +133,34 @@ cv::Mat1f ExactPicture(const CameraModel& camera, const Pose& X_CL, const ExactF
   cv::GaussianBlur(fine, fine, {}, kFine * frame.blur_px);
   cv::Mat1d picture;
   cv::resize(fine, picture, {camera.width_px(), camera.height_px()}, 0.0, 0.0, cv::INTER_AREA);
+  for (int v = 0; v < picture.rows; ++v) {
+    for (int u = 0; u < picture.cols; ++u) {
+      const double inverse_cos = camera.UnprojectRay({u, v}).value().norm();
+      const double light = std::pow(inverse_cos, -frame.vignetting_power);
+      picture(v, u) = frame.black_dn + light * (picture(v, u) - frame.black_dn);
+    }
+  }
   return picture;
+}
+
+cv::Mat1f WithUnevenLight(const cv::Mat1f& picture, const CameraModel& camera, const Pose& X_CL,
+                          const ExactFrame& frame, const std::array<double, 4>& slopes_per_px) {
+  const Pose X_OC = (X_CL * frame.X_LO).inverse();
+  const double px_per_m = camera.parameters().fx_px / (X_CL * frame.X_LO).translation().z();
+  cv::Mat1f uneven = picture.clone();
+  for (int v = 0; v < picture.rows; ++v) {
+    for (int u = 0; u < picture.cols; ++u) {
+      const Eigen::Vector3d ray_O = X_OC.rotation() * camera.UnprojectRay({u, v}).value();
+      const Eigen::Vector3d p_O = X_OC.translation() - X_OC.translation().z() / ray_O.z() * ray_O;
+      const double right_m = std::abs(p_O.x()) - 0.5 * frame.width_m;
+      const double up_m = std::abs(p_O.y()) - 0.5 * frame.height_m;
+      const size_t side = up_m > right_m ? (p_O.y() > 0.0 ? 0 : 2) : (p_O.x() > 0.0 ? 1 : 3);
+      const double outside_px = px_per_m * std::max({0.0, right_m, up_m});
+      uneven(v, u) +=
+          static_cast<float>(slopes_per_px[side] * outside_px * (picture(v, u) - frame.black_dn));
+    }
+  }
+  return uneven;
 }
 
 StereoObservation WithNoise(const cv::Mat1f& left, const cv::Mat1f& right, double noise_dn,

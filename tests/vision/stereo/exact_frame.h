@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <opencv2/core.hpp>
 
 #include "core/calibration.h"
@@ -23,11 +24,17 @@ struct ExactFrame {
   double blur_px = 0.45;
   double setback_m = 0.0;  ///< The wall before the frame; its opening is as large as the frame.
   double reveal_dn = 60.0;
+  double black_dn = 8.0;          ///< Grey value without light.
+  double vignetting_power = 4.5;  ///< Of the cosine of the angle to the optical axis.
 };
 
 /// Grey values without noise or rounding. The camera must have no distortion and the frame must be
 /// wholly in its image.
 cv::Mat1f ExactPicture(const CameraModel& camera, const Pose& X_CL, const ExactFrame& frame);
+
+/// A picture's light with slopes of its own outside of each side, as a share per pixel.
+cv::Mat1f WithUnevenLight(const cv::Mat1f& picture, const CameraModel& camera, const Pose& X_CL,
+                          const ExactFrame& frame, const std::array<double, 4>& slopes_per_px);
 
 /// The same with noise, the same in every pixel, rounded to 8 bits.
 StereoObservation ExactPair(const StereoCalibration& rig, const ExactFrame& frame, double noise_dn,
