@@ -27,7 +27,7 @@ TEST(PaperRgbdOptions, ReportAllFaultsAtOnce) {
   }
 }
 
-TEST(PaperRgbdOptions, DISABLED_EveryOptionCanBeSetByItsName) {
+TEST(PaperRgbdOptions, EveryOptionCanBeSetByItsName) {
   const auto& table = PaperRgbdParameters();
   for (const ParameterInfo& info : table.infos()) {
     PaperRgbdOptions options;
