@@ -113,21 +113,9 @@ FENESTRA_STEREO(BM_PaperStereo);
 FENESTRA_STEREO(BM_EdgeStereo);
 FENESTRA_RGBD(BM_BareNarf);
 FENESTRA_RGBD(BM_PaperRgbd);
+FENESTRA_RGBD(BM_PlaneRgbd);
 
 }  // namespace
 }  // namespace fenestra
 
-int main(int argc, char** argv) {
-  // As soon as there is such a detector.
-  if (fenestra::FindDetector("plane-rgbd") != nullptr) {
-    benchmark::RegisterBenchmark("BM_PlaneRgbd", fenestra::BM_PlaneRgbd)
-        ->ArgName("cm")
-        ->Arg(140)
-        ->Arg(200)
-        ->Unit(benchmark::kMillisecond);
-  }
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  return 0;
-}
+BENCHMARK_MAIN();

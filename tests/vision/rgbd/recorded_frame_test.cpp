@@ -103,14 +103,25 @@ TEST(RecordedFrameTest, AScreenHasNoOpening) {
   EXPECT_TRUE(std::holds_alternative<Miss>(DetectOnDesk(options)));
 }
 
+PlaneRgbdOptions AnyDepth() {
+  PlaneRgbdOptions options;
+  options.depth_to_m = 0.0;  // Not the SDK's driver.
+  return options;
+}
+
 // The only dark quadrilateral is the monitor's screen; but the plane around it is the floor's or
 // the desk's, on which it would be no rectangle: it hangs in no wall.
 TEST(RecordedFrameTest, AMonitorBeforeARoomHangsInNoWall) {
-  PlaneRgbdOptions options;
-  options.depth_to_m = 0.0;  // Not the SDK's driver.
-  const Detection detection = DetectIn<PlaneRgbdDetector>(kDesk, options);
+  const Detection detection = DetectIn<PlaneRgbdDetector>(kDesk, AnyDepth());
   ASSERT_TRUE(std::holds_alternative<Miss>(detection));
   EXPECT_EQ(std::get<Miss>(detection).reason, "not_a_rectangle");
+}
+
+TEST(RecordedFrameTest, NeitherACutPictureFrameNorACarpetIsAWindow) {
+  for (const Recording& recording : {kLivingRoom, kCarpet}) {
+    EXPECT_TRUE(std::holds_alternative<Miss>(DetectIn<PlaneRgbdDetector>(recording, AnyDepth())))
+        << recording.color;
+  }
 }
 
 }  // namespace
