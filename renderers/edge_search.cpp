@@ -13,7 +13,9 @@ constexpr int kBorders = 4;
 // A probe nearer than this to the edge that the lines have found may be on either side of it.
 constexpr float kNear = 1.0f / 64.0f;
 
-// How an edge is searched: on so many lines, all of which a packet's lanes share.
+// How an edge is searched: on so many lines, all of which a packet's lanes share. A third thing
+// that turns up once the edge is known to within kSliverIn is a sliver along the edge, as the rim
+// of a frame that a pane lies flush with; it is counted with what is behind it.
 template <int lines>
 struct Search {
   static constexpr int kLines = lines;
@@ -21,13 +23,18 @@ struct Search {
 };
 struct Fine : Search<16> {
   static constexpr int kProbes = 32;  // Samples all over the pixel.
-  static constexpr int kSteps = 8;    // Halving a line each time: to 1/256.
+  static constexpr bool kAlwaysProbes = true;
+  static constexpr int kSteps = 8;  // Halving a line each time: to 1/256.
   static constexpr int kGrid = 256;
+  static constexpr float kSliverIn = 1.0f / 60.0f;
 };
 struct Quick : Search<4> {
   static constexpr int kProbes = 16;
+  static constexpr bool kAlwaysProbes =
+      false;                        // The first points on the lines are all over it too.
   static constexpr int kSteps = 3;  // To a fifth each time.
   static constexpr int kGrid = 125;
+  static constexpr float kSliverIn = 1.0f / 24.0f;
 };
 
 template <typename How>
@@ -66,7 +73,7 @@ class EdgeSearch {
                                                    known.radiance};
       return Film::QuarteredResult{.quarters = alike, .key = known.key};
     }
-    if (!LookInside()) return std::nullopt;
+    if ((How::kAlwaysProbes || thing_count_ == 1) && !LookInside()) return std::nullopt;
     if (thing_count_ == 1) return Result({1.0f, 1.0f, 1.0f, 1.0f}, things_[0].key);
     const float ds = things_[0].s_sum / static_cast<float>(things_[0].count) -
                      things_[1].s_sum / static_cast<float>(things_[1].count);
@@ -164,7 +171,7 @@ class EdgeSearch {
       cuts.high[i] = cuts.low[i] + 1.0f + kStep;
     }
     for (int step = 0; step < How::kSteps; ++step) {
-      if (!Narrow(begins, ends, cuts)) return false;
+      if (!Narrow(step, begins, ends, cuts)) return false;
     }
     for (size_t i = 0; i < kLines; ++i) {
       edge_[i] = begins[i] != ends[i] ? std::clamp(0.5f * (cuts.low[i] + cuts.high[i]), 0.0f, 1.0f)
@@ -175,7 +182,7 @@ class EdgeSearch {
 
   // Tries all points of a packet, in even intervals of each line; false if something else turns up
   // or a line is crossed more than once.
-  bool Narrow(const Keys& begins, const Keys& ends, Cuts& cuts) {
+  bool Narrow(int step, const Keys& begins, const Keys& ends, Cuts& cuts) {
     constexpr int kPoints = How::kPointsPerLine;
     Lanes<float> places;
     PixelPoints points;
@@ -190,10 +197,15 @@ class EdgeSearch {
       points.t[i] = along_s_ ? LineAt<How>(static_cast<int>(line)) : places[i];
     }
     const Arriving arriving = sampler_.Trace(patch_, points);
+    if (!How::kAlwaysProbes && step == 0 && !Note(points, arriving)) return false;
     for (int i = 0; i < kLanes; ++i) {
       const auto line = static_cast<size_t>(i / kPoints);
       const uint32_t key = arriving.key[i];
-      if (key != things_[0].key && key != things_[1].key) return false;
+      const bool is_known = key == things_[0].key || key == things_[1].key;
+      if (!is_known &&
+          (cuts.high[line] - cuts.low[line] > How::kSliverIn || places[i] > cuts.high[line])) {
+        return false;
+      }
       // On a line whose ends see the same nothing else may turn up.
       if (begins[line] == ends[line] && key != begins[line]) return false;
       if (key != first_) {
@@ -207,19 +219,26 @@ class EdgeSearch {
     return true;
   }
 
+  // Where the edge is on the lines, and at both ends of the pixel, to which it goes on straight.
+  std::array<float, kLines + 2> EdgeAcross() const {
+    std::array<float, kLines + 2> places;
+    std::copy(edge_.begin(), edge_.end(), places.begin() + 1);
+    places.front() = 1.5f * edge_[0] - 0.5f * edge_[1];
+    places.back() = 1.5f * edge_[kLines - 1] - 0.5f * edge_[kLines - 2];
+    return places;
+  }
+
   // Whether all that was seen lies on the side of the edge on which it should.
   bool Agrees() const {
+    const auto places = EdgeAcross();
     for (size_t n = 0; n < sighting_count_; ++n) {
       const Sighting& seen = sightings_[n];
       const float along = along_s_ ? seen.s : seen.t;
       const float across = (along_s_ ? seen.t : seen.s) * static_cast<float>(kLines);
       const int line = std::clamp(static_cast<int>(across), 0, kLines - 1);
-      float nearest = 1.0f;
-      float farthest = 0.0f;
-      for (int i = std::max(line - 1, 0); i <= std::min(line + 1, kLines - 1); ++i) {
-        nearest = std::min(nearest, edge_[static_cast<size_t>(i)]);
-        farthest = std::max(farthest, edge_[static_cast<size_t>(i)]);
-      }
+      // On this line and its neighbours.
+      const auto first = places.begin() + line;
+      const auto [nearest, farthest] = std::minmax({first[0], first[1], first[2]});
       if (along < nearest - kNear && seen.key != first_) return false;
       if (along > farthest + kNear && seen.key == first_) return false;
     }
@@ -264,7 +283,7 @@ class EdgeSearch {
   PixelPatches patch_;
   std::array<Thing, 2> things_;
   size_t thing_count_ = 0;
-  std::array<Sighting, How::kProbes + kBorders * kLines> sightings_;
+  std::array<Sighting, How::kProbes + kLanes + kBorders * kLines> sightings_;
   size_t sighting_count_ = 0;
   std::array<Keys, kBorders> border_keys_;  // Left, right, top, bottom.
   bool along_s_ = true;

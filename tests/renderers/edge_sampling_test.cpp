@@ -129,7 +129,7 @@ TEST(EdgeSampling, PlacesEdgesToThreeThousandthsOfAPixel) {
   }
 }
 
-TEST(EdgeSampling, DISABLED_FourLinesPlaceEdgesToSixThousandthsOfAPixel) {
+TEST(EdgeSampling, FourLinesPlaceEdgesToSixThousandthsOfAPixel) {
   for (const double tilt_deg : kTilts_deg) {
     const Edge edge{.tilt_rad = Radians(tilt_deg), .below_px = 0.2};
     const auto errors = EdgeErrors(
