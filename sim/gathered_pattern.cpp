@@ -14,8 +14,6 @@ double MeanOverPixel(double offset, double sigma_px) {
   return 0.5 * (std::erf((offset + 0.5) * scale) - std::erf((offset - 0.5) * scale));
 }
 
-constexpr double kCells = static_cast<double>(DotPattern::kTileWidth) * DotPattern::kTileHeight;
-
 }  // namespace
 
 GatheredPattern::GatheredPattern(double dot_sigma_px) {
@@ -52,30 +50,39 @@ float GatheredPattern::At(double column, int row) const {
   return sum;
 }
 
-GatheredPattern::Moments GatheredPattern::MomentsAt(double displacement) const {
-  double sum = 0.0;
-  double sum2 = 0.0;
-  for (int row = 0; row < DotPattern::kTileHeight; ++row) {
-    for (int column = 0; column < DotPattern::kTileWidth; ++column) {
-      const auto value = static_cast<double>(At(column - displacement, row));
-      sum += value;
-      sum2 += value * value;
+cv::Mat1f GatheredPattern::Displaced(double displacement) const {
+  // All columns lie at the same offset from their cells, so that one kernel serves the whole tile.
+  const auto whole = static_cast<int>(std::floor(0.5 - displacement));
+  const double offset = -displacement - whole;
+  int first = (whole - kReach) % DotPattern::kTileWidth;
+  if (first < 0) first += DotPattern::kTileWidth;
+  cv::Mat1f displaced = cv::Mat1f::zeros(DotPattern::kTileHeight, DotPattern::kTileWidth);
+  for (int i = 0; i <= 2 * kReach; ++i) {
+    const float weight = SpreadAt(offset - (i - kReach));
+    for (int row = 0; row < displaced.rows; ++row) {
+      for (int column = 0; column < displaced.cols; ++column) {
+        displaced(row, column) +=
+            weight * gathered_(row, (first + column) % DotPattern::kTileWidth + i);
+      }
     }
   }
-  return {sum / kCells, sum2 / kCells - std::pow(sum / kCells, 2)};
+  return displaced;
+}
+
+GatheredPattern::Moments GatheredPattern::MomentsAt(double displacement) const {
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(Displaced(displacement), mean, deviation);
+  return {mean[0], deviation[0] * deviation[0]};
 }
 
 double GatheredPattern::Correlation(double displacement_a, double displacement_b) const {
-  double products = 0.0;
-  for (int row = 0; row < DotPattern::kTileHeight; ++row) {
-    for (int column = 0; column < DotPattern::kTileWidth; ++column) {
-      products += static_cast<double>(At(column - displacement_a, row)) *
-                  static_cast<double>(At(column - displacement_b, row));
-    }
-  }
+  const cv::Mat1f pattern_a = Displaced(displacement_a);
+  const cv::Mat1f pattern_b = Displaced(displacement_b);
+  const double products = pattern_a.dot(pattern_b) / static_cast<double>(pattern_a.total());
   const Moments a = MomentsAt(displacement_a);
   const Moments b = MomentsAt(displacement_b);
-  return (products / kCells - a.mean * b.mean) / std::sqrt(a.variance * b.variance);
+  return (products - a.mean * b.mean) / std::sqrt(a.variance * b.variance);
 }
 
 }  // namespace fenestra

@@ -30,6 +30,8 @@ class GatheredPattern {
   static constexpr int kReach = 2;
   static constexpr int kStepsPerCell = 64;
   float SpreadAt(double offset) const;
+  /// A tile, as pixels at whole cells gather the pattern that is displaced by this [cells].
+  cv::Mat1f Displaced(double displacement) const;
 
   std::array<float, 2 * (kReach + 1) * kStepsPerCell + 2> spread_{};
   /// Dots gathered along the columns; each row is continued by the tile's beginning.

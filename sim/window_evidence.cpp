@@ -8,18 +8,10 @@
 namespace fenestra {
 namespace {
 
-enum Field {
-  kDots,
-  kDots2,
-  kAmbient,
-  kSmooth2,
-  kEvidence,
-  kMoment,
-  kDisparity,
-  kStrongest,
-  kStrongestDisparity,
-  kFields
-};
+// Fields of WindowEvidence: those that a window's own disparity has a part in, and those that it
+// has not, which are gathered column by column and then row by row.
+enum OwnField { kEvidence, kMoment, kDisparity, kOwnFields };
+enum BoxField { kDots, kDots2, kAmbient, kSmooth2, kStrongest, kStrongestDisparity, kBoxFields };
 
 // How much of each pixel a side of this length covers, of all of it.
 std::vector<float> Weights(double side_px) {
@@ -35,27 +27,17 @@ std::vector<float> Weights(double side_px) {
 struct Pixel {
   float weight;
   float x;
-  float pattern_mean;
   float narrowness;
 };
 
 // Adds one pixel of each window: that at the same place of all of them.
-FENESTRA_WIDE void AddPixel(const float* __restrict dots, const float* __restrict ambient,
-                            const float* __restrict places, const float* __restrict disparity,
-                            Pixel p, float* __restrict sums, int count) {
-  float* const sum_dots = sums + kDots * count;
-  float* const sum_dots2 = sums + kDots2 * count;
-  float* const sum_ambient = sums + kAmbient * count;
-  float* const sum_smooth2 = sums + kSmooth2 * count;
+FENESTRA_WIDE void AddEvidence(const float* __restrict dots, const float* __restrict places,
+                               const float* __restrict disparity, Pixel p, float* __restrict sums,
+                               int count) {
   float* const sum_evidence = sums + kEvidence * count;
   float* const sum_moment = sums + kMoment * count;
   float* const sum_disparity = sums + kDisparity * count;
-  float* const strongest = sums + kStrongest * count;
-  float* const strongest_disparity = sums + kStrongestDisparity * count;
   for (int i = 0; i < count; ++i) {
-    const float s = dots[i];
-    const float weighted = p.weight * s;
-    const float smooth = p.pattern_mean * s + ambient[i];
     // exp(-q) = (exp(-q/32))³².
     const float apart = places[i] - disparity[i];
     float fit = std::max(0.0f, 1.0f - apart * apart * (p.narrowness / 32.0f));
@@ -64,30 +46,50 @@ FENESTRA_WIDE void AddPixel(const float* __restrict dots, const float* __restric
     fit *= fit;
     fit *= fit;
     fit *= fit;
-    const float evidence = weighted * fit;
-    sum_dots[i] += weighted;
-    sum_dots2[i] += weighted * s;
-    sum_ambient[i] += p.weight * ambient[i];
-    sum_smooth2[i] += p.weight * smooth * smooth;
+    const float evidence = p.weight * dots[i] * fit;
     sum_evidence[i] += evidence;
     sum_moment[i] += evidence * p.x;
     sum_disparity[i] += evidence * places[i];
+  }
+}
+
+// Adds one row of the windows to the sums over their columns.
+FENESTRA_WIDE void AddRow(const float* __restrict dots, const float* __restrict ambient,
+                          const float* __restrict places, float weight, float pattern_mean,
+                          float* __restrict columns, int count) {
+  float* const strongest = columns + kStrongest * count;
+  float* const strongest_disparity = columns + kStrongestDisparity * count;
+  for (int i = 0; i < count; ++i) {
+    const float s = dots[i];
+    const float smooth = pattern_mean * s + ambient[i];
+    columns[kDots * count + i] += weight * s;
+    columns[kDots2 * count + i] += weight * s * s;
+    columns[kAmbient * count + i] += weight * ambient[i];
+    columns[kSmooth2 * count + i] += weight * smooth * smooth;
     const bool is_stronger = s > strongest[i];
     strongest[i] = is_stronger ? s : strongest[i];
     strongest_disparity[i] = is_stronger ? places[i] : strongest_disparity[i];
   }
 }
 
-WindowEvidence EvidenceIn(const cv::Mat1f& sums, int i) {
-  return {.dots = sums(kDots, i),
-          .dots2 = sums(kDots2, i),
-          .ambient = sums(kAmbient, i),
-          .smooth2 = sums(kSmooth2, i),
-          .evidence = sums(kEvidence, i),
-          .moment = sums(kMoment, i),
-          .disparity = sums(kDisparity, i),
-          .strongest = sums(kStrongest, i),
-          .strongest_disparity = sums(kStrongestDisparity, i)};
+// Adds the columns that are at the same place of all windows; `stride`: from one field of the
+// columns to the next.
+FENESTRA_WIDE void AddColumn(const float* __restrict columns, int stride, float weight,
+                             float* __restrict sums, int count) {
+  for (int field = kDots; field <= kSmooth2; ++field) {
+    const float* const in = columns + field * stride;
+    float* const out = sums + field * count;
+    for (int i = 0; i < count; ++i) out[i] += weight * in[i];
+  }
+  const float* const strong = columns + kStrongest * stride;
+  const float* const strong_disparity = columns + kStrongestDisparity * stride;
+  float* const strongest = sums + kStrongest * count;
+  float* const strongest_disparity = sums + kStrongestDisparity * count;
+  for (int i = 0; i < count; ++i) {
+    const bool is_stronger = strong[i] > strongest[i];
+    strongest[i] = is_stronger ? strong[i] : strongest[i];
+    strongest_disparity[i] = is_stronger ? strong_disparity[i] : strongest_disparity[i];
+  }
 }
 
 }  // namespace
@@ -99,37 +101,53 @@ WindowGatherer::WindowGatherer(double width_px, double height_px, double pattern
       pattern_mean_(static_cast<float>(pattern_mean)),
       narrowness_(static_cast<float>(1.0 / (4.0 * spread_px * spread_px))) {}
 
-cv::Mat1f WindowGatherer::Gather(const WindowLight& light, cv::Point first,
-                                 const float* disparity_px, int count) const {
-  cv::Mat1f sums = cv::Mat1f::zeros(kFields, count);
+std::vector<WindowEvidence> WindowGatherer::Gather(const WindowLight& light, cv::Point first,
+                                                   const float* disparity_px, int count) const {
+  cv::Mat1f own = cv::Mat1f::zeros(kOwnFields, count);
+  cv::Mat1f columns = cv::Mat1f::zeros(kBoxFields, count + 2 * reach_u());
+  cv::Mat1f box = cv::Mat1f::zeros(kBoxFields, count);
   for (int y = -reach_v(); y <= reach_v(); ++y) {
+    const float weight_v = weights_v_[static_cast<size_t>(y + reach_v())];
+    const float* const dots = light.dots_dn[first.y + y] + first.x;
+    const float* const places = light.disparity_px[first.y + y] + first.x;
+    AddRow(dots - reach_u(), light.ambient_dn[first.y + y] + first.x - reach_u(),
+           places - reach_u(), weight_v, pattern_mean_, columns[0], columns.cols);
     for (int x = -reach_u(); x <= reach_u(); ++x) {
-      const Pixel pixel{.weight = weights_u_[static_cast<size_t>(x + reach_u())] *
-                                  weights_v_[static_cast<size_t>(y + reach_v())],
-                        .x = static_cast<float>(x),
-                        .pattern_mean = pattern_mean_,
-                        .narrowness = narrowness_};
-      const int column = first.x + x;
-      AddPixel(light.dots_dn[first.y + y] + column, light.ambient_dn[first.y + y] + column,
-               light.disparity_px[first.y + y] + column, disparity_px, pixel, sums[0], count);
+      AddEvidence(dots + x, places + x, disparity_px,
+                  {.weight = weights_u_[static_cast<size_t>(x + reach_u())] * weight_v,
+                   .x = static_cast<float>(x),
+                   .narrowness = narrowness_},
+                  own[0], count);
     }
   }
-  return sums;
+  for (int x = 0; x <= 2 * reach_u(); ++x) {
+    AddColumn(columns[0] + x, columns.cols, weights_u_[static_cast<size_t>(x)], box[0], count);
+  }
+  std::vector<WindowEvidence> windows;
+  windows.reserve(static_cast<size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    windows.push_back({.dots = box(kDots, i),
+                       .dots2 = box(kDots2, i),
+                       .ambient = box(kAmbient, i),
+                       .smooth2 = box(kSmooth2, i),
+                       .evidence = own(kEvidence, i),
+                       .moment = own(kMoment, i),
+                       .disparity = own(kDisparity, i),
+                       .strongest = box(kStrongest, i),
+                       .strongest_disparity = box(kStrongestDisparity, i)});
+  }
+  return windows;
 }
 
 std::vector<WindowEvidence> WindowGatherer::Row(const WindowLight& light, int v) const {
   const int count = light.dots_dn.cols - 2 * reach_u();
-  std::vector<WindowEvidence> windows;
-  if (count <= 0 || v < reach_v() || v + reach_v() >= light.dots_dn.rows) return windows;
-  const cv::Mat1f sums = Gather(light, {reach_u(), v}, light.disparity_px[v] + reach_u(), count);
-  windows.reserve(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i) windows.push_back(EvidenceIn(sums, i));
-  return windows;
+  if (count <= 0 || v < reach_v() || v + reach_v() >= light.dots_dn.rows) return {};
+  return Gather(light, {reach_u(), v}, light.disparity_px[v] + reach_u(), count);
 }
 
 WindowEvidence WindowGatherer::At(const WindowLight& light, cv::Point pixel,
                                   float disparity_px) const {
-  return EvidenceIn(Gather(light, pixel, &disparity_px, 1), 0);
+  return Gather(light, pixel, &disparity_px, 1).front();
 }
 
 }  // namespace fenestra

@@ -44,10 +44,9 @@ class WindowGatherer {
   WindowEvidence At(const WindowLight& light, cv::Point pixel, float disparity_px) const;
 
  private:
-  /// Windows around `count` pixels from `first` on, for as many disparities; fields of
-  /// WindowEvidence in rows.
-  cv::Mat1f Gather(const WindowLight& light, cv::Point first, const float* disparity_px,
-                   int count) const;
+  /// Windows around `count` pixels from `first` on, for as many disparities.
+  std::vector<WindowEvidence> Gather(const WindowLight& light, cv::Point first,
+                                     const float* disparity_px, int count) const;
 
   std::vector<float> weights_u_;  ///< Of columns; their sum is 1, as is that of the rows.
   std::vector<float> weights_v_;
