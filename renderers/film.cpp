@@ -1,6 +1,9 @@
 #include "renderers/film.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "core/wide.h"
 
@@ -35,6 +38,15 @@ FENESTRA_WIDE void Quarter(const Rows& in, const Rows& smooth, int stride, int c
     upper_right[i] = in.here[i] + along - down;
     lower_left[i] = in.here[i] - along + down;
     lower_right[i] = in.here[i] + along + down;
+  }
+}
+
+// 1 where a pixel is not marked as an edge, in each of its channels.
+void SpreadSmooth(const uchar* edges, int channels, std::vector<float>& smooth) {
+  float* out = smooth.data();
+  for (size_t u = 0; u < smooth.size() / static_cast<size_t>(channels); ++u) {
+    const float value = edges[u] == 0 ? 1.0f : 0.0f;
+    for (int c = 0; c < channels; ++c) *out++ = value;
   }
 }
 
@@ -79,19 +91,27 @@ void Film::MarkEdges() {
 
 QuarterImages Film::TakeQuarters() const {
   QuarterImages quarters;
-  for (cv::Mat& quarter : quarters) quarter = radiance_.clone();
-  cv::Mat smooth;
-  edges_.convertTo(smooth, CV_32F, -1.0 / 255.0, 1.0);
-  if (channels_ > 1) {
-    cv::merge(std::vector<cv::Mat>(static_cast<size_t>(channels_), smooth), smooth);
-  }
-  const auto rows = [](const cv::Mat& image, int row) {
-    return Rows{image.ptr<float>(row - 1), image.ptr<float>(row), image.ptr<float>(row + 1)};
+  for (cv::Mat& quarter : quarters) quarter.create(radiance_.size(), radiance_.type());
+  const int count = radiance_.cols * channels_;
+  std::array<std::vector<float>, 3> smooth;  // Of the rows above, here and below.
+  for (std::vector<float>& row : smooth) row.resize(static_cast<size_t>(count));
+  const auto copy = [&](const cv::Rect& pixels) {
+    for (cv::Mat& quarter : quarters) radiance_(pixels).copyTo(quarter(pixels));
   };
-  for (int row = 1; row < radiance_.rows - 1; ++row) {
-    Quarter(rows(radiance_, row), rows(smooth, row), channels_, radiance_.cols * channels_,
-            quarters[0].ptr<float>(row), quarters[1].ptr<float>(row), quarters[2].ptr<float>(row),
-            quarters[3].ptr<float>(row));
+  // The outermost pixels are level.
+  const cv::Size size = radiance_.size();
+  for (const int row : {0, size.height - 1}) copy({0, row, size.width, 1});
+  for (const int column : {0, size.width - 1}) copy({column, 0, 1, size.height});
+  for (int row = 0; row < size.height; ++row) {
+    std::rotate(smooth.begin(), smooth.begin() + 1, smooth.end());
+    if (row + 1 < size.height) SpreadSmooth(edges_[row + 1], channels_, smooth[2]);
+    if (row == 0) SpreadSmooth(edges_[0], channels_, smooth[1]);
+    if (row == 0 || row + 1 == size.height) continue;
+    Quarter(
+        {radiance_.ptr<float>(row - 1), radiance_.ptr<float>(row), radiance_.ptr<float>(row + 1)},
+        {smooth[0].data(), smooth[1].data(), smooth[2].data()}, channels_, count,
+        quarters[0].ptr<float>(row), quarters[1].ptr<float>(row), quarters[2].ptr<float>(row),
+        quarters[3].ptr<float>(row));
   }
   for (const auto& [pixel, radiance] : quartered_) {
     for (size_t q = 0; q < quarters.size(); ++q) {

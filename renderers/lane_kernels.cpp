@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/wide.h"
 #include "renderers/fresnel.h"
 #include "renderers/net_samples.h"
-#include "core/wide.h"
 
 namespace fenestra {
 namespace {
@@ -110,24 +110,46 @@ FENESTRA_WIDE Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangl
   return side;
 }
 
-FENESTRA_WIDE Lanes<float> AmbientLeaving(const SideRadiance* sides,
+FENESTRA_WIDE SideGroups GroupsOf(const Lanes<uint32_t>& side_hit) {
+  SideGroups groups;
+  uint32_t differs = 0;
+  for (int i = 0; i < kLanes; ++i) differs |= side_hit[i] ^ side_hit[0];
+  groups.sides[groups.count++] = side_hit[0];
+  if (differs == 0) return groups;
+  for (int i = 1; i < kLanes; ++i) {
+    bool is_new = true;
+    for (int k = 0; k < groups.count; ++k) is_new = is_new && groups.sides[k] != side_hit[i];
+    if (is_new) groups.sides[groups.count++] = side_hit[i];
+  }
+  return groups;
+}
+
+FENESTRA_WIDE Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
                                           const Lanes<uint32_t>& side_hit,
                                           const RayPacket& packet) {
   Lanes<float> light;
-  for (int i = 0; i < kLanes; ++i) {
-    const SideRadiance& side = sides[side_hit[i]];
-    light[i] = side.ambient + side.ambient_u * packet.hit.u[i] + side.ambient_v * packet.hit.v[i];
+  for (int k = 0; k < groups.count; ++k) {
+    const uint32_t hit = groups.sides[k];
+    const SideRadiance side = sides[hit];
+    for (int i = 0; i < kLanes; ++i) {
+      const float own =
+          side.ambient + side.ambient_u * packet.hit.u[i] + side.ambient_v * packet.hit.v[i];
+      light[i] = side_hit[i] == hit ? own : light[i];
+    }
   }
   return light;
 }
 
-FENESTRA_WIDE Lanes<float> SunLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
-                                      const RayPacket& packet) {
+FENESTRA_WIDE Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+                                      const Lanes<uint32_t>& side_hit, const RayPacket& packet) {
   Lanes<float> light;
-  for (int i = 0; i < kLanes; ++i) {
-    const SideRadiance& side = sides[side_hit[i]];
-    const float sun = side.sun + side.sun_u * packet.hit.u[i] + side.sun_v * packet.hit.v[i];
-    light[i] = sun > 0.0f ? sun : 0.0f;
+  for (int k = 0; k < groups.count; ++k) {
+    const uint32_t hit = groups.sides[k];
+    const SideRadiance side = sides[hit];
+    for (int i = 0; i < kLanes; ++i) {
+      const float sun = side.sun + side.sun_u * packet.hit.u[i] + side.sun_v * packet.hit.v[i];
+      light[i] = side_hit[i] == hit ? (sun > 0.0f ? sun : 0.0f) : light[i];
+    }
   }
   return light;
 }
@@ -165,9 +187,11 @@ FENESTRA_WIDE Lanes<float> PaneReflectances(const LaneMask& panes, const RayPack
                                             const float* index) {
   const RTCRay16& ray = packet.ray;
   const RTCHit16& hit = packet.hit;
+  // Fetched first, so that the arithmetic is done in all lanes at once.
+  Lanes<float> n;
+  for (int i = 0; i < kLanes; ++i) n[i] = index[panes[i] != 0 ? hit.primID[i] : 0u];
   Lanes<float> reflectance;
   for (int i = 0; i < kLanes; ++i) {
-    const bool on = panes[i] != 0;
     const float nx = hit.Ng_x[i];
     const float ny = hit.Ng_y[i];
     const float nz = hit.Ng_z[i];
@@ -178,8 +202,8 @@ FENESTRA_WIDE Lanes<float> PaneReflectances(const LaneMask& panes, const RayPack
     const float dd = dx * dx + dy * dy + dz * dz;
     const float nd = nx * dx + ny * dy + nz * dz;
     const float cosine = (nd < 0.0f ? -nd : nd) / std::sqrt(nn * dd);
-    const float R = PaneReflectance(cosine, index[on ? hit.primID[i] : 0u]);
-    reflectance[i] = on ? R : 0.0f;
+    const float R = PaneReflectance(cosine, n[i]);
+    reflectance[i] = panes[i] != 0 ? R : 0.0f;
   }
   return reflectance;
 }

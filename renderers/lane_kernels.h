@@ -76,11 +76,20 @@ ImagePoints InPixels(const PixelPatches& patches, const PixelPoints& points);
 /// The side that each lane hit, or the sky or the ground: an index into SideRadiance tables.
 Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count);
 
+/// The different sides among those that a packet has hit: few, and all lanes of one are shaded
+/// at once.
+struct SideGroups {
+  Lanes<uint32_t> sides;
+  int count = 0;
+};
+SideGroups GroupsOf(const Lanes<uint32_t>& side_hit);
+
 /// The light that leaves each hit, without the sun's, and the sun's if it reaches the hit.
-Lanes<float> AmbientLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
-                            const RayPacket& packet);
-Lanes<float> SunLeaving(const SideRadiance* sides, const Lanes<uint32_t>& side_hit,
-                        const RayPacket& packet);
+/// `groups`: of the sides hit.
+Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
+                            const Lanes<uint32_t>& side_hit, const RayPacket& packet);
+Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+                        const Lanes<uint32_t>& side_hit, const RayPacket& packet);
 
 /// Rays from all hits towards a distant light, starting `offset_m` off the surface on the side
 /// that the packet's rays came from.

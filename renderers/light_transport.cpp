@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "core/check.h"
-#include "renderers/diffuse_light.h"
 #include "core/wide.h"
+#include "renderers/diffuse_light.h"
 
 namespace fenestra {
 namespace {
@@ -189,14 +189,15 @@ LightTransport::Ends LightTransport::Shade(const LaneMask& mask, const RayPacket
                                            const Lanes<float>& before) const {
   Ends ends;
   ends.side_hit = SidesHit(packet, static_cast<uint32_t>(surfaces_.traced.opaque().size()));
+  const SideGroups groups = GroupsOf(ends.side_hit);
   for (size_t c = 0; c < channels_.size(); ++c) {
-    ends.radiance[c] = AmbientLeaving(sides_[c].data(), ends.side_hit, packet);
+    ends.radiance[c] = AmbientLeaving(sides_[c].data(), groups, ends.side_hit, packet);
   }
   if (has_sun_) {
     std::array<Lanes<float>, kMostChannels> sun;
     Lanes<float> sun_facing;
     for (size_t c = 0; c < channels_.size(); ++c) {
-      sun[c] = SunLeaving(sides_[c].data(), ends.side_hit, packet);
+      sun[c] = SunLeaving(sides_[c].data(), groups, ends.side_hit, packet);
       KeepLarger(sun[c], sun_facing);
     }
     ends.sun = SunReaching(mask, packet, sun_facing);
