@@ -155,12 +155,16 @@ cv::Mat1b ColorCamera::Develop(const cv::Mat1f& electrons_per_s, double exposure
                                const RandomStream& frame) const {
   const cv::Mat1w dn =
       sensor_.Expose(electrons_per_s, {.exposure_s = exposure_s, .gain = 1.0}, frame);
-  // Black is taken away before the encoding.
+  // Black is taken away before the encoding. A code for each value that the sensor gives.
   const double black_dn = sensor_.BlackLevelDn();
   const double per_dn = 1.0 / (sensor_.FullScaleDn() - black_dn);
-  cv::Mat1f linear;
-  dn.convertTo(linear, CV_32F, per_dn, -black_dn * per_dn);
-  return EncodeSrgb(linear);
+  cv::Mat1f linear(1, sensor_.FullScaleDn() + 1);
+  for (int i = 0; i < linear.cols; ++i) linear(i) = static_cast<float>((i - black_dn) * per_dn);
+  const cv::Mat1b codes = EncodeSrgb(linear);
+  cv::Mat1b encoded(dn.size());
+  std::transform(dn.begin(), dn.end(), encoded.begin(),
+                 [table = codes[0]](uint16_t value) { return table[value]; });
+  return encoded;
 }
 
 double ColorCamera::Exposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const {
