@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "core/freed_memory.h"
 #include "renderers/lane_kernels.h"
 #include "renderers/traced_scene.h"
 #include "scenes/facade.h"
@@ -217,4 +218,9 @@ BENCHMARK(BM_DepthFrame)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMil
 }  // namespace
 }  // namespace fenestra
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  fenestra::KeepFreedMemory();  // As the program does.
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+}

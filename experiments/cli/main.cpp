@@ -6,6 +6,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "core/did_you_mean.h"
+#include "core/freed_memory.h"
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/versions.h"
@@ -117,6 +118,7 @@ int Main(int argc, char** argv) {
 }  // namespace fenestra::cli
 
 int main(int argc, char** argv) {
+  fenestra::KeepFreedMemory();
   try {
     return fenestra::cli::Main(argc, argv);
   } catch (const fenestra::InputError& error) {
