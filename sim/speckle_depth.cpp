@@ -19,16 +19,6 @@ CameraModel InfraredCamera(const CameraModel& depth, int scale) {
   return CameraModel(parameters);
 }
 
-// The largest disparity that is searched, in the infra-red image [px], with room for noise and for
-// the parabola's neighbours.
-double SearchEnd(const SpeckleMatchingOptions& matching, const DisparityRange& range,
-                 int width_px) {
-  constexpr double kRoom_px = 2.0;
-  const double scale = width_px / DisparityRange::kImageWidth;
-  return std::max(matching.search_px * scale,
-                  range.focal_times_baseline / range.nearest_m * scale + kRoom_px);
-}
-
 }  // namespace
 
 SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
@@ -43,7 +33,7 @@ SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchin
       rays_(InfraredCamera(depth, scale), shutter),
       pattern_(infrared.dot_sigma_px),
       matcher_(matching, infrared, pattern_, rays_.size(), 0.0,
-               SearchEnd(matching, range, rays_.size().width)) {}
+               matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth) {}
 
 cv::Mat1w SpeckleDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
                                         const Pose& X_WB, const RandomStream& shot,

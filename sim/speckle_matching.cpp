@@ -1,5 +1,7 @@
 #include "sim/speckle_matching.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -122,14 +124,19 @@ void WindowStatistics(const cv::Mat1i& image, int reach_u, int reach_v, cv::Mat1
 
 }  // namespace
 
+double SpeckleMatchingOptions::SearchEnd(const DisparityRange& range) const {
+  constexpr double kRoom_px = 2.0;
+  return std::max(search_px, range.focal_times_baseline / range.nearest_m + kRoom_px);
+}
+
 void Validate(const SpeckleMatchingOptions& o) {
   std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, const char* message) {
-    if (!holds) faults.push_back({"speckle matching", 0, 0, message});
+  const auto demand = [&faults](bool holds, std::string message) {
+    if (!holds) faults.push_back({"speckle matching", 0, 0, std::move(message)});
   };
   for (const int side : {o.window_width_px, o.window_height_px}) {
     demand(side >= 3 && side <= 15 && side % 2 == 1,
-           "the window's sides must be odd numbers from 3 to 15 px");
+           fmt::format("the window's sides must be odd numbers from 3 to 15 px, not {}", side));
   }
   demand(o.search_px >= 1.0 && o.search_px <= 200.0, "the search must be over 1 to 200 px");
   demand(o.least_correlation > 0.0 && o.least_correlation < 1.0,
@@ -152,7 +159,8 @@ SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
       size_(image),
       least_(static_cast<int>(std::floor(least_px))),
       most_(static_cast<int>(std::ceil(most_px))) {
-  FENESTRA_CHECK(0 <= least_ && least_ < most_ && most_ <= 1000, "disparities from 0 to 1000 px");
+  FENESTRA_CHECK(0 <= least_ && least_ < most_ && most_ <= kMostDisparity_px,
+                 "disparities from 0 to 1000 px");
   for (int phase = 0; phase < 2; ++phase) {
     Phase& p = phases_[phase];
     p.values = cv::Mat1i(image.height, image.width + most_);

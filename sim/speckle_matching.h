@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
+#include "sim/disparity_range.h"
 #include "sim/infrared_image.h"
 #include "sim/subpixel_vertex.h"
 
@@ -31,6 +32,10 @@ struct SpeckleMatchingOptions {
   /// is left of it, a quarter of the width aside when that is one half: with 1/4, a surface ends
   /// where its window's centre leaves it, and shadows are as wide as they are.
   double most_off_centre = 0.25;
+
+  /// The largest disparity that is searched [px of a 640-wide image]: with room for noise, and for
+  /// the neighbours that the vertex needs.
+  double SearchEnd(const DisparityRange& range) const;
 };
 
 /// Throws InputError with all faults.
@@ -50,6 +55,9 @@ struct SpeckleMatches {
 /// over steps of half a pixel, and the vertex by the best and its neighbours (SubpixelVertex).
 class SpeckleMatcher {
  public:
+  /// Enough for images 4096 px wide in near mode.
+  static constexpr double kMostDisparity_px = 1000.0;
+
   /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
   /// `infrared`: the noise that is known of the image.
   SpeckleMatcher(const SpeckleMatchingOptions& options, const InfraredOptions& infrared,

@@ -36,6 +36,11 @@ DisparityRange RangeOf(const StructuredLightOptions& o) {
                             o.disparity_step_px, o.near_mode);
 }
 
+// [px of the infra-red image]
+double SpeckleSearchEnd(const StructuredLightOptions& o) {
+  return o.matching.SearchEnd(RangeOf(o)) * o.infrared_width_px / DisparityRange::kImageWidth;
+}
+
 RollingShutter InfraredShutter(const StructuredLightOptions& o) {
   return {.motion = o.motion, .readout_s = o.infrared_readout_s};
 }
@@ -65,10 +70,20 @@ void Validate(const StructuredLightOptions& o) {
          fmt::format("{} averaged frames are not between 1 and 1000", o.averaged_frames));
   demand(!o.registered_depth ||
              o.depth_width_px * o.color.height_px == o.depth_height_px * o.color.width_px,
-         "depth can be registered if its image has the colour image's proportions");
+         fmt::format("depth in {} x {} px cannot be registered to colour in {} x {} px: the images "
+                     "must have the same proportions",
+                     o.depth_width_px, o.depth_height_px, o.color.width_px, o.color.height_px));
   demand(o.depth_model != DepthModel::kSpeckle || o.infrared_width_px % o.depth_width_px == 0,
          fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
                      o.infrared_width_px, o.depth_width_px));
+  if (o.depth_model == DepthModel::kSpeckle && o.projector_baseline_m > 0.0) {
+    const double end_px = SpeckleSearchEnd(o);
+    demand(end_px <= SpeckleMatcher::kMostDisparity_px,
+           fmt::format("at the nearest distance disparities are {:.0f} px of the infra-red image, "
+                       "which is more than {:.0f}: it is too wide, or the focal length or the "
+                       "projector's baseline too long",
+                       end_px, SpeckleMatcher::kMostDisparity_px));
+  }
   if (!faults.empty()) throw InputError(std::move(faults));
   Validate(InfraredShutter(o));
   Validate(o.infrared);
