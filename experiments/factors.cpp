@@ -284,7 +284,7 @@ void AddRgbdDepth(Table& t) {
       .Number("rgbd_most_off_centre", FIELD(rgbd.matching.most_off_centre), {0.01, 0.5},
               "Of the evidence of other windows, as a share of their width.")
       .Number("rgbd_search_px", FIELD(rgbd.matching.search_px), {1.0, 200.0},
-              "Disparities that are tried, in a 640-wide image; speckle only.");
+              "Disparities that are tried, in a 640-wide image.");
 }
 
 void AddRgbdMotion(Table& t) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/input_error.h"
+#include "sim/chance_match.h"
 #include "sim/missing_return.h"
 
 namespace fenestra {
@@ -32,6 +33,10 @@ bool Covers(cv::Size size, int reach_u, int reach_v, int u, int v, double scale)
          v * scale >= reach_v && v * scale + reach_v <= size.height * scale - 1.0;
 }
 
+// Of how many places of the search the best is sought. A process of autocorrelation exp(-k²/4σ_p²)
+// exceeds a high level u at u/(2 √π σ_p) independent places a pixel (Rice): about two, for u = 4.
+constexpr double kPlaceWidth_px = 0.5;
+
 // The spread of a dot with that of a pixel.
 double SpreadOf(const InfraredOptions& infrared) {
   return std::sqrt(infrared.dot_sigma_px * infrared.dot_sigma_px + 1.0 / 12.0);
@@ -51,6 +56,7 @@ void Validate(const ParametricDepthOptions& o) {
 struct ParametricDepth::Match {
   float correlation = 0.0f;    ///< ρ
   float variance = 0.0f;       ///< V [DN²]
+  float step = 0.0f;           ///< var(m s + a)
   float explained = 0.0f;      ///< ρ² V
   float noise = 0.0f;          ///< σ²
   float strength = 0.0f;       ///< √⟨s²⟩ [DN]
@@ -70,9 +76,11 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
       p_CP_(baseline_m, 0.0, 0.0),
       rays_(depth, shutter),
       pattern_mean_(static_cast<float>(GatheredPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
+      search_px_(matching.SearchEnd(range)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
       windows_(matching.window_width_px / scale_, matching.window_height_px / scale_,
                static_cast<double>(pattern_mean_), SpreadOf(infrared)) {
+  dots_chance_ = static_cast<float>(SumOfGaussian(2.0 * std::pow(SpreadOf(infrared), 2)));
   const GatheredPattern pattern(infrared.dot_sigma_px);
   for (int i = 0; i < kPhases; ++i) {
     const double offset = (i + 0.5) / kPhases;
@@ -81,6 +89,7 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
     phases_[static_cast<size_t>(i)] = {
         .variance = static_cast<float>(pattern.MomentsAt(offset).variance),
         .match = static_cast<float>(pattern.Correlation(offset, step))};
+    whole_besides_ += BesidesIn(phases_[static_cast<size_t>(i)]) / kPhases;
   }
 }
 
@@ -105,6 +114,13 @@ WindowLight ParametricDepth::LightOf(const AovImages& aovs) const {
   return windows;
 }
 
+float ParametricDepth::BesidesIn(const Phase& phase) const {
+  const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
+  const float whole = c2 * (phase.variance + pattern_mean_ * pattern_mean_);
+  const float matched = phase.match * phase.match;
+  return (whole + (1.0f - matched) * phase.variance) / (matched * phase.variance);
+}
+
 ParametricDepth::Match ParametricDepth::MatchAt(const WindowEvidence& window,
                                                 float disparity_px) const {
   Match match;
@@ -117,9 +133,10 @@ ParametricDepth::Match ParametricDepth::MatchAt(const WindowEvidence& window,
       static_cast<float>(infrared_.dark_noise_dn * infrared_.dark_noise_dn + 1.0 / 12.0);
   const float smooth = pattern_mean_ * window.dots + window.ambient;
   match.noise = dark_variance + static_cast<float>(infrared_.shot_noise_dn) * smooth;
+  match.step = std::max(0.0f, window.smooth2 - smooth * smooth);
   match.variance =
       (phase.variance + c2 * (phase.variance + pattern_mean_ * pattern_mean_)) * window.dots2 +
-      std::max(0.0f, window.smooth2 - smooth * smooth) + match.noise;
+      match.step + match.noise;
   const float signal = phase.match * window.evidence;
   match.explained = phase.variance * signal * signal;
   match.correlation = std::sqrt(match.explained / match.variance);
@@ -129,16 +146,28 @@ ParametricDepth::Match ParametricDepth::MatchAt(const WindowEvidence& window,
   return match;
 }
 
-bool ParametricDepth::IsAccepted(const Match& match, float rival, const Noise& noise) const {
-  const auto pixels = static_cast<float>(matching_.window_width_px * matching_.window_height_px);
+float ParametricDepth::Measured(const Match& match, const Noise& noise) const {
   // Fitted to SpeckleMatcher on walls: the search takes the best of several places around the right
   // one, and windows hold more or fewer dots.
-  constexpr float kBestOfSeveral = 0.4f;
-  constexpr float kSpread = 1.1f;
+  constexpr float kBestOfSeveral = 0.5f;
+  constexpr float kSpread = 0.95f;
   const float rho = match.correlation;
-  const float deviation = (1.0f - rho * rho) / std::sqrt(pixels);
-  const float measured =
-      std::min(1.0f, rho + deviation * (kBestOfSeveral + kSpread * noise.evidence));
+  const float deviation = (1.0f - rho * rho) / std::sqrt(Pixels());
+  return std::min(1.0f, rho + deviation * (kBestOfSeveral + kSpread * noise.evidence));
+}
+
+float ParametricDepth::BestByChance(const Match& match, float enough, const Noise& noise) const {
+  // Two processes of autocorrelations r and r' correlate by chance with the variance Σ r r'/n:
+  // 1/n if one of them is white. Steps count as white, since dots are spread evenly.
+  const float excess =
+      match.variance > 0.0f ? (dots_chance_ - 1.0f) * match.explained / match.variance : 0.0f;
+  const double deviation = std::sqrt(static_cast<double>((1.0f + excess) / Pixels()));
+  return ChanceMatch{.deviation = deviation, .places = search_px_ / kPlaceWidth_px}.Best(
+      enough, noise.chance);
+}
+
+bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival,
+                                 const Noise& noise) const {
   if (measured < static_cast<float>(matching_.least_correlation)) return false;
   if (measured - rival < static_cast<float>(matching_.least_lead)) return false;
   const float explained = measured * measured * match.variance;
@@ -147,7 +176,7 @@ bool ParametricDepth::IsAccepted(const Match& match, float rival, const Noise& n
   // The centre's noise: that of a mean place over the window, weighted with noisy evidence.
   const auto width = static_cast<float>(matching_.window_width_px);
   const float by_noise_px =
-      std::sqrt(match.noise / match.explained) * width / std::sqrt(12.0f * pixels);
+      std::sqrt(match.noise / match.explained) * width / std::sqrt(12.0f * Pixels());
   const float spread_px = std::hypot(by_noise_px, static_cast<float>(noise_.lateral_noise_px));
   return std::abs(match.off_centre_px + spread_px * noise.lateral) <=
          static_cast<float>(matching_.most_off_centre) * width;
@@ -155,6 +184,8 @@ bool ParametricDepth::IsAccepted(const Match& match, float rival, const Noise& n
 
 float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
                             const Noise& noise) const {
+  // Clipped, the window has not even noise to match.
+  if (window.ambient >= static_cast<float>(infrared_.saturation_dn)) return kNaN;
   const float own_px = light.disparity_px(pixel);
   const float strongest_px = window.strongest_disparity;
   Match match = MatchAt(window, own_px);
@@ -164,11 +195,34 @@ float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& wind
     if (other.correlation > match.correlation) std::swap(match, other);
     rival = other.correlation;
   }
-  if (!IsAccepted(match, rival, noise)) return kNaN;
-  const auto temporal_px = static_cast<float>(noise_.temporal_disparity_noise_px) *
-                           std::sqrt(match.noise) / match.strength;
-  return match.disparity_px + static_cast<float>(noise_.fixed_disparity_noise_px) * noise.fixed +
-         temporal_px * noise.temporal;
+  const float measured = Measured(match, noise);
+  // A better place counts from where it is accepted, and a worse one from where it is a rival.
+  const auto least = static_cast<float>(matching_.least_correlation);
+  const auto lead = static_cast<float>(matching_.least_lead);
+  const float chance = BestByChance(
+      match, measured < least ? std::max(least, measured + lead) : measured - lead, noise);
+  if (chance > measured) {
+    // Some other place fits better: anywhere.
+    if (!IsAccepted(match, chance, measured, noise)) return kNaN;
+    return static_cast<float>(search_px_ * NormalShare(static_cast<double>(noise.temporal)));
+  }
+  if (!IsAccepted(match, measured, std::max(rival, chance), noise)) return kNaN;
+  return match.disparity_px + DisparityError(match, measured, noise);
+}
+
+float ParametricDepth::DisparityError(const Match& match, float measured,
+                                      const Noise& noise) const {
+  // What windows hold besides pattern and noise disturbs them as the laser's speckle does a whole
+  // one. Of a step in brightness, where an outline crosses, a quarter does: fitted, as is the root
+  // by which windows have less noise that correlate better than they should.
+  constexpr float kOfStep = 0.25f;
+  const float besides = std::max(
+      0.0f, match.variance - match.explained - match.noise - (1.0f - kOfStep) * match.step);
+  const float disturbed = std::sqrt(besides / (match.explained * whole_besides_));
+  const float noisy =
+      std::sqrt(match.noise * std::min(1.0f, match.correlation / measured)) / match.strength;
+  return static_cast<float>(noise_.fixed_disparity_noise_px) * disturbed * noise.fixed +
+         static_cast<float>(noise_.temporal_disparity_noise_px) * noisy * noise.temporal;
 }
 
 DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lighting,
@@ -180,6 +234,7 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
   const cv::Size window(2 * windows_.reach_u() + 1, 2 * windows_.reach_v() + 1);
   const cv::Mat1f evidence = WindowNoise(frame.Child("evidence"), size, window);
   const cv::Mat1f lateral = WindowNoise(frame.Child("lateral"), size, window);
+  const cv::Mat1f chance = WindowNoise(frame.Child("chance"), size, window);
   const cv::Mat1f fixed = WindowNoise(shot.Child("laser_speckle"), size, window);
   const cv::Mat1f temporal = WindowNoise(frame.Child("disparity"), size, window);
   const MissingReturn missing(infrared_, matching_, range_, rays_.camera(), p_CP_);
@@ -204,6 +259,7 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
             Read(light, row[static_cast<size_t>(u - windows_.reach_u())], pixel,
                  {.evidence = evidence(pixel),
                   .lateral = lateral(pixel),
+                  .chance = chance(pixel),
                   .fixed = fixed(pixel),
                   .temporal = temporal(pixel)});
         if (std::isfinite(disparity_px)) {

@@ -44,7 +44,10 @@ void Validate(const ParametricDepthOptions& options);
 /// the pattern at d with itself at the nearest step of the search. d is the disparity of the
 /// window's centre or that of its strongest pixel, whichever fits better. Noise of the standard
 /// deviation (1 - ρ²)/√n is added to ρ, and SpeckleMatchingOptions decide, as in SpeckleMatcher.
-/// The window's disparity is the mean of d_i over its evidence, and noise.
+/// The best of the N other places of the search correlates by chance: by the greatest of N normal
+/// numbers of deviation 1/√n. Where that is more than ρ it is the match, if it is accepted.
+/// The window's disparity is the mean of d_i over its evidence, and noise: the fixed part in
+/// proportion to √((V - ρ²V - σ²)/ρ²V), the temporal one to σ/√⟨s²⟩.
 class ParametricDepth {
  public:
   ParametricDepth(const InfraredOptions& infrared, const ParametricDepthOptions& noise,
@@ -62,6 +65,7 @@ class ParametricDepth {
   struct Noise {
     float evidence;
     float lateral;
+    float chance;
     float fixed;
     float temporal;
   };
@@ -72,10 +76,21 @@ class ParametricDepth {
   };
   static constexpr int kPhases = 16;
 
+  float Pixels() const {
+    return static_cast<float>(matching_.window_width_px * matching_.window_height_px);
+  }
   WindowLight LightOf(const AovImages& aovs) const;
   /// Of the window with the pattern at this disparity [px at 640].
   Match MatchAt(const WindowEvidence& window, float disparity_px) const;
-  bool IsAccepted(const Match& match, float rival, const Noise& noise) const;
+  /// Of a whole window: what it holds besides the match and noise, over what the match explains.
+  float BesidesIn(const Phase& phase) const;
+  /// The correlation with noise.
+  float Measured(const Match& match, const Noise& noise) const;
+  /// The best correlation of all wrong places if it is more than `enough`, or else -1.
+  float BestByChance(const Match& match, float enough, const Noise& noise) const;
+  bool IsAccepted(const Match& match, float measured, float rival, const Noise& noise) const;
+  /// [px at 640]
+  float DisparityError(const Match& match, float measured, const Noise& noise) const;
   /// Disparity after noise [px at 640], or NaN.
   float Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
              const Noise& noise) const;
@@ -88,7 +103,10 @@ class ParametricDepth {
   MovingRays rays_;
   float pattern_mean_;
   std::array<Phase, kPhases> phases_;
-  double scale_;  ///< Pixels of a 640-wide image per depth pixel.
+  float whole_besides_ = 0.0f;  ///< BesidesIn, the mean of all phases.
+  float dots_chance_ = 1.0f;    ///< Σ r² of the pattern's autocorrelation r = exp(-k²/4σ_p²).
+  double search_px_;            ///< Disparities are searched up to this [px at 640].
+  double scale_;                ///< Pixels of a 640-wide image per depth pixel.
   WindowGatherer windows_;
 };
 

@@ -32,7 +32,7 @@ StructuredLightOptions Small(DepthModel model) {
   return options;
 }
 
-TEST(DepthCurvesTest, DISABLED_TheParametricModelLosesReturnsToLightAndDistance) {
+TEST(DepthCurvesTest, TheParametricModelLosesReturnsToLightAndDistance) {
   const DepthCurves curves = MeasureDepthCurves(Small(DepthModel::kParametric), RandomStream(1));
   for (const DepthCurves::Distance& at : curves.by_distance) {
     // A fixed pattern is a part of the residual.
