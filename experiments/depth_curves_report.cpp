@@ -85,74 +85,86 @@ std::string StepTable(const DepthCurves& s) {
   return table.ToMarkdown();
 }
 
-std::vector<cv::Point2d> AmbientAt(const DepthCurves& curves, double z_m) {
-  std::vector<cv::Point2d> points;
-  for (const auto& at : curves.by_ambient) {
-    if (at.z_m == z_m) points.emplace_back(at.wall_lx, at.valid);
+// Shares of valid pixels by x, one curve for each level of something else.
+struct ShareCurve {
+  double level;
+  std::vector<cv::Point2d> x_and_share;
+};
+template <typename Rows, typename Row>
+std::vector<ShareCurve> SharesBy(const Rows& rows, double Row::*level, double Row::*x) {
+  std::vector<ShareCurve> curves;
+  for (const Row& row : rows) {
+    auto same = std::find_if(curves.begin(), curves.end(),
+                             [&](const ShareCurve& c) { return c.level == row.*level; });
+    if (same == curves.end()) same = curves.insert(same, {row.*level, {}});
+    same->x_and_share.emplace_back(row.*x, row.valid);
   }
-  return points;
+  return curves;
+}
+std::vector<ShareCurve> AmbientCurves(const DepthCurves& curves) {
+  return SharesBy(curves.by_ambient, &DepthCurves::Ambient::z_m, &DepthCurves::Ambient::wall_lx);
+}
+std::vector<ShareCurve> PaintCurves(const DepthCurves& curves) {
+  return SharesBy(curves.by_paint, &DepthCurves::Paint::reflectance_830nm,
+                  &DepthCurves::Paint::z_m);
 }
 
-std::vector<cv::Point2d> PaintOf(const DepthCurves& curves, double reflectance) {
-  std::vector<cv::Point2d> points;
-  for (const auto& at : curves.by_paint) {
-    if (at.reflectance_830nm == reflectance) points.emplace_back(at.z_m, at.valid);
-  }
-  return points;
-}
-
-// Values of x that occur, in order.
-template <typename Rows, typename Field>
-std::vector<double> LevelsOf(const Rows& rows, Field field) {
-  std::vector<double> levels;
-  for (const auto& row : rows) {
-    if (std::find(levels.begin(), levels.end(), row.*field) == levels.end()) {
-      levels.push_back(row.*field);
+// Both models' curves side by side; all have the same x.
+std::string ShareTable(const std::string& x, const std::string& unit,
+                       const std::vector<ShareCurve>& p, const std::vector<ShareCurve>& s) {
+  std::vector<std::string> headings = {x};
+  for (const ShareCurve& curve : s) {
+    for (const char* model : {"parametric", "speckle"}) {
+      headings.push_back(fmt::format("{}{}, {} [%]", Number(curve.level), unit, model));
     }
   }
-  return levels;
+  TextTable table = TableWith(headings);
+  for (size_t i = 0; i < s.front().x_and_share.size(); ++i) {
+    std::vector<std::string> row = {fmt::format("{:g}", s.front().x_and_share[i].x)};
+    for (size_t k = 0; k < s.size(); ++k) {
+      row.push_back(Percent(p[k].x_and_share[i].y));
+      row.push_back(Percent(s[k].x_and_share[i].y));
+    }
+    table.AddRow(row);
+  }
+  return table.ToMarkdown();
 }
 
 std::string AmbientTables(const StructuredLightOptions& options, const DepthCurves& p,
                           const DepthCurves& s) {
   TextTable halves = TableWith({"distance [m]", "predicted [lx]", "by", "parametric [lx]",
                                 "speckle [lx]", "speckle, ratio"});
-  for (const double z_m : LevelsOf(s.by_ambient, &DepthCurves::Ambient::z_m)) {
+  const std::vector<ShareCurve> parametric = AmbientCurves(p);
+  const std::vector<ShareCurve> speckle = AmbientCurves(s);
+  for (size_t i = 0; i < speckle.size(); ++i) {
+    const double z_m = speckle[i].level;
     const ReachPrediction predicted = PredictedAmbientLimit(options, DepthBench::kWhite, z_m);
-    const double measured = HalfPoint(AmbientAt(s, z_m));
+    const double measured = HalfPoint(speckle[i].x_and_share);
     halves.AddRow({Number(z_m), Number(predicted.lux),
                    predicted.by_saturation ? "saturation" : "acceptance",
-                   Number(HalfPoint(AmbientAt(p, z_m))), Number(measured),
+                   Number(HalfPoint(parametric[i].x_and_share)), Number(measured),
                    fmt::format("{:.2f}", measured / predicted.lux)});
   }
-  TextTable table = TableWith(
-      {"on the wall [lx]", "distance [m]", "valid, parametric [%]", "valid, speckle [%]"});
-  for (size_t i = 0; i < s.by_ambient.size(); ++i) {
-    const auto& at = s.by_ambient[i];
-    table.AddRow(
-        {Number(at.wall_lx), Number(at.z_m), Percent(p.by_ambient[i].valid), Percent(at.valid)});
-  }
-  return fmt::format("Half of the pixels are lost at:\n\n{}\n{}", halves.ToMarkdown(),
-                     table.ToMarkdown());
+  return fmt::format("Half of the pixels are lost at:\n\n{}\nPixels with a return:\n\n{}",
+                     halves.ToMarkdown(),
+                     ShareTable("on the wall [lx]", " m", parametric, speckle));
 }
 
 std::string PaintTables(const StructuredLightOptions& options, const DepthCurves& p,
                         const DepthCurves& s) {
   TextTable halves =
       TableWith({"reflectance at 830 nm", "predicted [m]", "parametric [m]", "speckle [m]"});
-  for (const double rho : LevelsOf(s.by_paint, &DepthCurves::Paint::reflectance_830nm)) {
+  const std::vector<ShareCurve> parametric = PaintCurves(p);
+  const std::vector<ShareCurve> speckle = PaintCurves(s);
+  for (size_t i = 0; i < speckle.size(); ++i) {
+    const double rho = speckle[i].level;
     halves.AddRow({Number(rho), Number(PredictedReach(options, rho)),
-                   Number(HalfPoint(PaintOf(p, rho))), Number(HalfPoint(PaintOf(s, rho)))});
+                   Number(HalfPoint(parametric[i].x_and_share)),
+                   Number(HalfPoint(speckle[i].x_and_share))});
   }
-  TextTable table = TableWith(
-      {"reflectance at 830 nm", "distance [m]", "valid, parametric [%]", "valid, speckle [%]"});
-  for (size_t i = 0; i < s.by_paint.size(); ++i) {
-    const auto& at = s.by_paint[i];
-    table.AddRow({Number(at.reflectance_830nm), Number(at.z_m), Percent(p.by_paint[i].valid),
-                  Percent(at.valid)});
-  }
-  return fmt::format("Half of the pixels are lost at:\n\n{}\n{}", halves.ToMarkdown(),
-                     table.ToMarkdown());
+  return fmt::format(
+      "Half of the pixels are lost at:\n\n{}\nPixels with a return, by reflectance:\n\n{}",
+      halves.ToMarkdown(), ShareTable("distance [m]", "", parametric, speckle));
 }
 
 std::string ShadowTable(const StructuredLightOptions& options, const DepthCurves& p,
