@@ -185,7 +185,7 @@ bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival
 float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
                             const Noise& noise) const {
   // Clipped, the window has not even noise to match.
-  if (window.ambient >= static_cast<float>(infrared_.saturation_dn)) return kNaN;
+  if (window.ambient >= static_cast<float>(infrared_.saturation_dn - 0.5)) return kNaN;
   const float own_px = light.disparity_px(pixel);
   const float strongest_px = window.strongest_disparity;
   Match match = MatchAt(window, own_px);
