@@ -45,12 +45,12 @@ double RoughnessOf(const std::vector<double>& places) {
 }
 
 // The outermost returns nearer than `between_m` of each row across the middle, in a 640-wide image.
+// The rows all cross both upright borders, of which the far one is the shorter.
 DepthCurves::Lateral BordersOf(const DepthImage& depth, double between_m) {
   std::vector<double> left;
   std::vector<double> right;
-  const cv::Rect middle = MiddleOf(depth.raw);
   const double to_640 = 640.0 / depth.raw.cols;
-  for (int v = middle.y; v < middle.br().y; ++v) {
+  for (int v = depth.raw.rows * 3 / 8; v < depth.raw.rows * 5 / 8; ++v) {
     int first = -1;
     int last = -1;
     for (int u = 0; u < depth.raw.cols; ++u) {

@@ -101,7 +101,7 @@ void DrawAmbient(cv::Mat3b& canvas, const Models& models) {
 void DrawPaint(cv::Mat3b& canvas, const Models& models) {
   Plot plot(canvas, {.area = AreaOf(1, 1),
                      .title = "Black paint, reflectance 0.05 at 830 nm",
-                     .x = {"distance [m]", 0.8, 3.6},
+                     .x = {"distance [m]", 0.5, 3.6},
                      .y = {"valid pixels [%]", 0.0, 130.0}});
   plot.VerticalMark(PredictedReach({}, 0.05), "predicted");
   models.Draw(plot, [](const DepthCurves& c) {

@@ -228,7 +228,7 @@ std::string DepthCurvesMarkdown(const StructuredLightOptions& options,
                                 const DepthCurves& parametric, const DepthCurves& speckle) {
   const Agreement worst = AgreementOf(parametric, speckle);
   return fmt::format(
-      "# Depth of simulated walls\n\n"
+      "# Depth of simulated walls\n\n![Curves](depth_curves.png)\n\n"
       "## White wall, by distance\n\n{}\n"
       "## White wall at 1.5 m, by angle of incidence\n\n{}\n"
       "## Upright borders of a plate at 1.5 m, by its angle\n\n{}\n"
@@ -238,8 +238,7 @@ std::string DepthCurvesMarkdown(const StructuredLightOptions& options,
       "## Paint\n\n{}\n"
       "## The models against each other\n\n"
       "Valid shares differ most, by {:.1f} points, at {}; noise of white walls up to 60°, "
-      "parametric : speckle, lies between {:.2f} and {:.2f}.\n\n"
-      "![Curves](depth_curves.png)\n",
+      "parametric : speckle, lies between {:.2f} and {:.2f}.\n",
       ByDistance(parametric, speckle), ByIncidence(parametric, speckle),
       LateralTable(parametric, speckle), StepTable(speckle),
       ShadowTable(options, parametric, speckle), AmbientTables(options, parametric, speckle),
