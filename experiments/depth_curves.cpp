@@ -84,17 +84,24 @@ std::vector<DepthCurves::Lateral> MeasureLateral(const StructuredLightOptions& o
   return curve;
 }
 
-// Between the depths around z that occur on a wall at 35°.
+// Between the depths around z that occur on a wall at 35°. Seen from several distances, so that
+// even in an image of few columns no depth is left out.
 double StepAt(const StructuredLightOptions& options, double z_m, const RandomStream& stream) {
+  constexpr int kViews = 8;
+  constexpr double kSpacing = 0.00125;
   const DepthBench wall(options, DepthBench::kWhite, {}, stream);
-  const DepthImage depth = wall.See({.distance_m = z_m, .azimuth_rad = 35.0 * kDegree});
   std::set<uint16_t> levels;
-  for (const uint16_t raw : depth.raw) {
-    if (std::abs(raw * depth.unit_m - z_m) < 0.06 * z_m) levels.insert(raw);
+  double unit_m = 0.0;
+  for (int i = 0; i < kViews; ++i) {
+    const DepthImage depth =
+        wall.See({.distance_m = z_m * (1.0 + kSpacing * i), .azimuth_rad = 35.0 * kDegree});
+    unit_m = depth.unit_m;
+    for (const uint16_t raw : depth.raw) {
+      if (std::abs(raw * unit_m - z_m) < 0.06 * z_m) levels.insert(raw);
+    }
   }
   if (levels.size() < 3) return NAN;
-  return (*levels.rbegin() - *levels.begin()) * depth.unit_m /
-         static_cast<double>(levels.size() - 1);
+  return (*levels.rbegin() - *levels.begin()) * unit_m / static_cast<double>(levels.size() - 1);
 }
 
 std::vector<DepthCurves::Step> MeasureSteps(StructuredLightOptions options,
