@@ -38,7 +38,8 @@ TEST(StudySchema, AcceptsWhatTheReaderAccepts) {
            kHead + "sensors: [rgbd]\ndetectors: [paper-rgbd]\n",
            kHead + "detectors:\n  - {name: paper-stereo, label: wide, options: {window_px: 31}}\n"
                    "  - paper-rgbd\n",
-           kHead + "detectors: [{name: paper-stereo, isolate: true, time_limit_s: 3}]\n",
+           kHead +
+               "detectors: [{name: paper-stereo, isolate: true, time_limit_s: 3}, paper-rgbd]\n",
            kHead + "sensors: [stereo]\ndetectors: [{name: mine, command: [python3, mine.py], "
                    "sensor: stereo, options: "
                    "{size_m: 0.8, fast: true, mode: best}, start_limit_s: 20}]\n",
