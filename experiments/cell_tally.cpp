@@ -34,14 +34,6 @@ std::optional<HitErrors> ErrorsOfHits(const std::vector<Eigen::Vector3d>& errors
   return result;
 }
 
-bool HasTarget(const TrialRecord& row) {
-  return row.score.truth_p_CO.has_value();
-}
-
-bool IsAttempt(const TrialRecord& row) {
-  return HasTarget(row) && row.score.outcome != Outcome::kOutOfView;
-}
-
 std::vector<ReasonCount> Sorted(const std::map<std::pair<Outcome, std::string>, int>& counts) {
   std::vector<ReasonCount> reasons;
   for (const auto& [key, count] : counts) reasons.push_back({key.first, key.second, count});
@@ -69,19 +61,17 @@ void CellTally::Add(const TrialRecord& row) {
   last_trial_ = row.trial;
   ++counted_.trials;
   counted_.counts.Add(row.score.outcome);
-  if (IsAttempt(row)) ++counted_.in_view;
-  if (!HasTarget(row)) ++counted_.without_target;
+  if (row.score.IsAttempt()) ++counted_.in_view;
+  if (!row.score.HasTarget()) ++counted_.without_target;
   if (!row.score.reason.empty()) ++reasons_[{row.score.outcome, row.score.reason}];
   AddErrors(row);
   AddTimes(row);
 }
 
 void CellTally::AddErrors(const TrialRecord& row) {
-  const auto error = row.score.CentroidError_C();
-  if (IsAttempt(row)) {
-    attempt_errors_.push_back(error ? error->norm() : std::numeric_limits<double>::infinity());
-  }
+  if (row.score.IsAttempt()) attempt_errors_.push_back(row.score.CentroidErrorOrInfinity_m());
   if (row.score.outcome != Outcome::kHit) return;
+  const auto error = row.score.CentroidError_C();
   FENESTRA_CHECK(error.has_value(), "a hit without an error");
   hit_errors_.push_back(*error);
   if (!row.bound_C) return;

@@ -1,7 +1,5 @@
 #include "experiments/detector_comparison.h"
 
-#include <limits>
-
 namespace fenestra {
 
 void DetectorComparisons::Add(const TrialRecord& record) {
@@ -11,11 +9,10 @@ void DetectorComparisons::Add(const TrialRecord& record) {
   cell.part = record.part;
   cell.sensor = record.sensor;
   cell.levels = record.levels;
-  const auto error = record.score.CentroidError_C();
   cell.by_detector[record.detector][record.trial] = {
       .success = outcome == Outcome::kHit || outcome == Outcome::kClear,
-      .has_target = record.score.truth_p_CO.has_value(),
-      .error_m = error ? error->norm() : std::numeric_limits<double>::infinity()};
+      .has_target = record.score.HasTarget(),
+      .error_m = record.score.CentroidErrorOrInfinity_m()};
 }
 
 DetectorComparison DetectorComparisons::Compare(int cell, const CellTries& tries,

@@ -28,7 +28,7 @@ Interval NotNegative(const Interval& interval) {
 
 void FigureTally::Add(const TrialRecord& row) {
   const Outcome outcome = row.score.outcome;
-  if (!row.score.truth_p_CO) {
+  if (!row.score.HasTarget()) {
     ++without_target_;
     if (outcome != Outcome::kCrashed) ++counts_[static_cast<size_t>(outcome)];
     return;
@@ -37,9 +37,9 @@ void FigureTally::Add(const TrialRecord& row) {
   ++counts_[static_cast<size_t>(outcome)];
   if (outcome == Outcome::kOutOfView) return;
   ++in_view_;
-  const auto error = row.score.CentroidError_C();
-  attempt_errors_.push_back(error ? error->norm() : std::numeric_limits<double>::infinity());
+  attempt_errors_.push_back(row.score.CentroidErrorOrInfinity_m());
   if (outcome != Outcome::kHit) return;
+  const auto error = row.score.CentroidError_C();
   FENESTRA_CHECK(error.has_value(), "a hit without an error");
   hit_errors_.push_back(*error);
 }

@@ -72,15 +72,6 @@ std::string CellText(const Ratio& ratio) {
                      ratio.interval90.upper);
 }
 
-double ErrorOf(const TrialRecord& row) {
-  const auto error = row.score.CentroidError_C();
-  return error ? error->norm() : std::numeric_limits<double>::infinity();
-}
-
-bool IsInView(const TrialRecord& row) {
-  return row.score.truth_p_CO.has_value() && row.score.outcome != Outcome::kOutOfView;
-}
-
 std::string TextOf(const FactorValues& levels) {
   std::string text;
   for (const auto& [name, value] : levels) {
@@ -172,9 +163,11 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
       std::erase_if(pairs.levels, [&](const auto& level) { return level.first == factor; });
       for (const auto& [trial, row] : cell.rows) {
         const auto other = base.rows.find(trial);
-        if (other == base.rows.end() || !IsInView(*row) || !IsInView(*other->second)) continue;
-        pairs.pairs.push_back({.error_m = ErrorOf(*row),
-                               .base_error_m = ErrorOf(*other->second),
+        if (other == base.rows.end() || !row->score.IsAttempt() ||
+            !other->second->score.IsAttempt())
+          continue;
+        pairs.pairs.push_back({.error_m = row->score.CentroidErrorOrInfinity_m(),
+                               .base_error_m = other->second->score.CentroidErrorOrInfinity_m(),
                                .is_hit = row->score.outcome == Outcome::kHit,
                                .base_is_hit = other->second->score.outcome == Outcome::kHit});
       }

@@ -1,5 +1,7 @@
 #include "experiments/trial_record.h"
 
+#include <limits>
+
 #include "core/check.h"
 
 namespace fenestra {
@@ -60,6 +62,11 @@ std::optional<Outcome> ParseOutcome(std::string_view word) {
 std::optional<Eigen::Vector3d> Score::CentroidError_C() const {
   if (!estimate || !truth_p_CO) return std::nullopt;
   return Eigen::Vector3d(estimate->p_CO - *truth_p_CO);
+}
+
+double Score::CentroidErrorOrInfinity_m() const {
+  const auto error = CentroidError_C();
+  return error ? error->norm() : std::numeric_limits<double>::infinity();
 }
 
 std::optional<double> TrialRecord::TotalSeconds() const {

@@ -52,6 +52,12 @@ struct Score {
 
   /// Estimate minus truth: x to the right, y down, z in depth. nullopt unless both are there.
   std::optional<Eigen::Vector3d> CentroidError_C() const;
+  /// Its length; infinite where there is none, as the quantiles of all attempts need it.
+  double CentroidErrorOrInfinity_m() const;
+
+  bool HasTarget() const { return truth_p_CO.has_value(); }
+  /// Whether there was a whole window in view to be found.
+  bool IsAttempt() const { return HasTarget() && outcome != Outcome::kOutOfView; }
 };
 
 /// One raw row of a study: one trial seen by one detector. The key is (cell, trial, detector).

@@ -26,18 +26,10 @@ std::vector<Sum> Values(const ByCluster<Sum>& clusters) {
   return values;
 }
 
-bool HasTarget(const TrialRecord& row) {
-  return row.score.truth_p_CO.has_value();
-}
-
-bool IsAttempt(const TrialRecord& row) {
-  return HasTarget(row) && row.score.outcome != Outcome::kOutOfView;
-}
-
 // The rows that a rate of the outcome is a share of.
 bool CountsForRate(const TrialRecord& row, Outcome outcome) {
   const bool of_empty_scenes = outcome == Outcome::kFalseAlarm || outcome == Outcome::kClear;
-  return of_empty_scenes ? !HasTarget(row) : IsAttempt(row);
+  return of_empty_scenes ? !row.score.HasTarget() : row.score.IsAttempt();
 }
 
 // Signed where the quantity is; nullopt for a row that has none.
@@ -113,7 +105,7 @@ std::optional<Estimation> EstimateQuantile(const Bound& bound, std::span<const S
   std::vector<double> values;
   for (const SelectedRow& row : rows) {
     const auto value = ValueOf(*row.row, figure.quantity);
-    if (figure.quantity == Quantity::kTime ? !value : !IsAttempt(*row.row)) continue;
+    if (figure.quantity == Quantity::kTime ? !value : !row.row->score.IsAttempt()) continue;
     values.push_back(std::abs(value.value_or(kInfinity)));
     ClusterCount& count = clusters[row.cluster];
     ++count.trials;

@@ -46,10 +46,7 @@ void AddSignedRanks(std::vector<Difference> cell,
 }
 
 bool IsPairOfAttempts(const SelectedRow& row) {
-  const auto attempted = [](const TrialRecord& r) {
-    return r.score.truth_p_CO.has_value() && r.score.outcome != Outcome::kOutOfView;
-  };
-  return attempted(*row.row) && attempted(*row.baseline);
+  return row.row->score.IsAttempt() && row.baseline->score.IsAttempt();
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ void Progress::Add(std::span<const TrialRecord> rows) {
     DetectorTally& tally = tallies_[row.detector];
     tally.detector = row.detector;
     if (row.score.outcome == Outcome::kHit) ++tally.hits;
-    if (row.score.truth_p_CO && row.score.outcome != Outcome::kOutOfView) ++tally.in_view;
+    if (row.score.IsAttempt()) ++tally.in_view;
   }
   const double interval_s = options_.terminal ? kRedraw_s : options_.line_interval_s;
   if (options_.seconds() - shown_s_ >= interval_s) Show();

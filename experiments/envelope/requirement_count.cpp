@@ -29,12 +29,10 @@ const char* ToString(RequirementVerdict verdict) {
 
 void RequirementCount::Add(const TrialRecord& row) {
   ++trials_;
-  if (!row.score.truth_p_CO || row.score.outcome == Outcome::kOutOfView) return;
+  if (!row.score.IsAttempt()) return;
   ++attempts_;
   if (row.score.outcome == Outcome::kHit) ++good_[0];
-  const auto error = row.score.CentroidError_C();
-  if (!error) return;
-  const double error_mm = 1e3 * error->norm();
+  const double error_mm = 1e3 * row.score.CentroidErrorOrInfinity_m();
   const Requirement& require = rule_.require;
   if (require.p50_error_mm && error_mm <= *require.p50_error_mm) ++good_[1];
   if (require.p95_error_mm && error_mm <= *require.p95_error_mm) ++good_[2];
