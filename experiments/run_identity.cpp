@@ -8,6 +8,7 @@
 
 #include "experiments/study_writer.h"
 #include "experiments/versions.h"
+#include "vision/plugin_loader.h"
 
 namespace fenestra {
 namespace {
@@ -49,6 +50,15 @@ std::string Text(const std::vector<std::string>& lines) {
   return text;
 }
 
+std::string Plugins() {
+  std::vector<std::string> plugins;
+  for (const LoadedPlugin& plugin : LoadedPlugins()) {
+    plugins.push_back(fmt::format("{} {}", plugin.name, plugin.build_id));
+  }
+  std::sort(plugins.begin(), plugins.end());
+  return fmt::format("{}", fmt::join(plugins, ", "));
+}
+
 }  // namespace
 
 RunIdentity IdentityOf(const Study& study) {
@@ -56,7 +66,8 @@ RunIdentity IdentityOf(const Study& study) {
           .version = Version(),
           .build = BuildId(),
           .libraries = LibraryVersions(),
-          .instruction_set = InstructionSet()};
+          .instruction_set = InstructionSet(),
+          .plugins = Plugins()};
 }
 
 void AddTo(StoreMetadata& metadata, const RunIdentity& identity) {
@@ -65,6 +76,7 @@ void AddTo(StoreMetadata& metadata, const RunIdentity& identity) {
   metadata["build"] = identity.build;
   metadata["libraries"] = identity.libraries;
   metadata["instruction_set"] = identity.instruction_set;
+  metadata["plugins"] = identity.plugins;
 }
 
 RunIdentity IdentityFrom(const StoreMetadata& metadata) {
@@ -76,7 +88,8 @@ RunIdentity IdentityFrom(const StoreMetadata& metadata) {
           .version = get("version"),
           .build = get("build"),
           .libraries = get("libraries"),
-          .instruction_set = get("instruction_set")};
+          .instruction_set = get("instruction_set"),
+          .plugins = get("plugins")};
 }
 
 std::vector<std::string> Differences(const RunIdentity& there, const RunIdentity& here) {
@@ -88,6 +101,7 @@ std::vector<std::string> Differences(const RunIdentity& there, const RunIdentity
   if (there.version == here.version) compare("build", there.build, here.build);
   compare("libraries", there.libraries, here.libraries);
   compare("instruction set", there.instruction_set, here.instruction_set);
+  compare("plugins", there.plugins, here.plugins);
   if (there.study != here.study) {
     const std::vector<std::string> a = LinesOf(there.study);
     const std::vector<std::string> b = LinesOf(here.study);

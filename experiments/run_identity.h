@@ -16,6 +16,7 @@ struct RunIdentity {
   std::string build;
   std::string libraries;
   std::string instruction_set;
+  std::string plugins;  ///< Shared libraries with detectors: "libmine.so 5f3a…, …".
 };
 
 /// Of a study that this program runs on this machine.

@@ -1,8 +1,6 @@
 #include "experiments/versions.h"
 
-#include <elf.h>
 #include <fmt/format.h>
-#include <link.h>
 #include <pcl/pcl_config.h>
 #include <sqlite3.h>
 #include <unistd.h>
@@ -12,44 +10,14 @@
 #include <opencv2/core/utility.hpp>
 #include <openturns/PlatformInfo.hxx>
 
+#include "core/build_id.h"
 #include "experiments/shell_quoting.h"
 #include "renderers/embree_version.h"
 
 namespace fenestra {
-namespace {
-
-// The note that --build-id leaves in the program itself, which is the first object of all.
-int ReadBuildId(dl_phdr_info* object, size_t, void* result) {
-  for (int i = 0; i < object->dlpi_phnum; ++i) {
-    const auto& segment = object->dlpi_phdr[i];
-    if (segment.p_type != PT_NOTE) continue;
-    // Notes lie in memory one after the other, each padded to four bytes.
-    const auto pad = [](size_t bytes) { return (bytes + 3) / 4 * 4; };
-    size_t at = object->dlpi_addr + segment.p_vaddr;
-    const size_t end = at + segment.p_memsz;
-    while (at + sizeof(ElfW(Nhdr)) <= end) {
-      const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(at);
-      const auto* bytes =
-          reinterpret_cast<const unsigned char*>(at + sizeof(*note) + pad(note->n_namesz));
-      if (note->n_type == NT_GNU_BUILD_ID) {
-        auto& id = *static_cast<std::string*>(result);
-        for (size_t k = 0; k < note->n_descsz; ++k) id += fmt::format("{:02x}", bytes[k]);
-        return 1;
-      }
-      at += sizeof(*note) + pad(note->n_namesz) + pad(note->n_descsz);
-    }
-  }
-  return 1;
-}
-
-}  // namespace
 
 const std::string& BuildId() {
-  static const std::string id = [] {
-    std::string found;
-    dl_iterate_phdr(ReadBuildId, &found);
-    return found;
-  }();
+  static const std::string id = BuildIdAt(reinterpret_cast<const void*>(&Version));
   return id;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/build_id.h"
 #include "core/input_error.h"
 #include "vision/detector_plugin.h"
 #include "vision/detector_registry.h"
@@ -71,6 +72,11 @@ void CheckNames(const std::filesystem::path& library, const Collector& collector
   }
 }
 
+std::vector<LoadedPlugin>& MutablePlugins() {
+  static std::vector<LoadedPlugin> plugins;
+  return plugins;
+}
+
 }  // namespace
 
 int LoadPlugin(const std::filesystem::path& library) {
@@ -90,7 +96,13 @@ int LoadPlugin(const std::filesystem::path& library) {
   }
   CheckNames(library, collector);
   for (const auto& [info, make] : collector.collected()) RegisterDetector(info, make);
+  MutablePlugins().push_back({.name = library.filename().string(),
+                              .build_id = BuildIdAt(reinterpret_cast<const void*>(fill))});
   return static_cast<int>(collector.collected().size());
+}
+
+const std::vector<LoadedPlugin>& LoadedPlugins() {
+  return MutablePlugins();
 }
 
 }  // namespace fenestra

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace fenestra {
 
@@ -12,5 +14,12 @@ namespace fenestra {
 /// cannot be loaded, is no plugin, was built against another interface, registers no detector, or
 /// one whose name is taken, or throws while it does so.
 int LoadPlugin(const std::filesystem::path& library);
+
+/// A library that LoadPlugin has loaded.
+struct LoadedPlugin {
+  std::string name;      ///< Of its file: "libmine.so".
+  std::string build_id;  ///< See BuildIdAt.
+};
+const std::vector<LoadedPlugin>& LoadedPlugins();
 
 }  // namespace fenestra

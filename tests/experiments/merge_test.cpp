@@ -92,8 +92,11 @@ TEST(MergeTest, ShardsOfOtherResultsAreNamed) {
   EXPECT_THAT(refusal(folder / "study"), HasSubstr("repetitions: 5"));
   RunStudy(MockRun(MockStudy(4), folder / "count", {2, 3}));
   EXPECT_THAT(refusal(folder / "count"), HasSubstr("shards: 2 there, 3 here"));
-  for (const auto& [key, name] : std::vector<std::pair<std::string, std::string>>{
-           {"version", "version"}, {"build", "build"}, {"instruction_set", "instruction set"}}) {
+  for (const auto& [key, name] :
+       std::vector<std::pair<std::string, std::string>>{{"version", "version"},
+                                                        {"build", "build"},
+                                                        {"instruction_set", "instruction set"},
+                                                        {"plugins", "plugins"}}) {
     fs::copy(shards[1], folder / key, fs::copy_options::recursive);
     ExecuteSql(folder / key, "UPDATE meta SET value = 'odd' WHERE key = '" + key + "'");
     EXPECT_THAT(refusal(folder / key), AllOf(HasSubstr(name + ": "), HasSubstr("odd here")));

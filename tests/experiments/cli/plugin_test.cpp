@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "experiments/store.h"
 #include "tests/experiments/cli/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 
@@ -38,6 +39,11 @@ TEST(PluginTest, ACrashOrAHangInALibraryCostsItsTrialAndTheRestGoesOn) {
   for (const char* good : {",fine,hit,", ",chatty,hit,", ",in-process,hit,"}) {
     EXPECT_THAT(rows, HasSubstr(good));
   }
+  EXPECT_EQ(ResultStore::OpenReadOnly(folder / "out/results.sqlite")
+                .Metadata()
+                .at("plugins")
+                .find("libplugin_none.so "),
+            0u);
   EXPECT_EQ(Fenestra("replay " + out + " 0/0" + kPlugin).exit_code, 0);
   EXPECT_THAT(Fenestra("replay " + out + " 0/0").text, HasSubstr("unknown detector"));
 }
