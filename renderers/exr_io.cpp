@@ -9,6 +9,7 @@
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 
@@ -19,6 +20,8 @@ namespace fenestra {
 namespace {
 
 constexpr int kLargestSide_px = 16384;
+// Of all channels, 1 GiB in memory: a small file may claim to be a huge image.
+constexpr int64_t kMostValues = int64_t{1} << 28;
 
 // An output stream into a string, so that the file can appear by rename.
 class StringStream : public Imf::OStream {
@@ -80,6 +83,12 @@ ExrImage ReadOrThrow(const std::filesystem::path& file) {
   ExrImage image;
   Imf::FrameBuffer frame;
   const Imf::ChannelList& list = input.header().channels();
+  int64_t channels = 0;
+  for (auto entry = list.begin(); entry != list.end(); ++entry) ++channels;
+  if (width * height > kMostValues / std::max<int64_t>(channels, 1)) {
+    throw InputError(file, fmt::format("{} channels of {} x {} px are more than {} values",
+                                       channels, width, height, kMostValues));
+  }
   for (auto entry = list.begin(); entry != list.end(); ++entry) {
     if (entry.channel().xSampling != 1 || entry.channel().ySampling != 1) {
       throw InputError(file, fmt::format("channel '{}' is subsampled", entry.name()));

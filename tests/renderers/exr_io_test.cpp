@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -59,6 +60,27 @@ TEST(Exr, BadImagesAreRefusedWithAllFaults) {
   EXPECT_THROW(WriteExr(File("bad.exr"), {}, {}), InputError);
   EXPECT_THROW(WriteExr(File("bad.exr"), {{"Y", Noise(1)}}, {{"compression", "none"}}), InputError);
   EXPECT_FALSE(std::filesystem::exists(File("bad.exr")));
+}
+
+TEST(Exr, ASmallFileThatClaimsToBeHugeIsRefusedBeforeAnythingIsAllocated) {
+  WriteExr(File("huge.exr"), {{"A", Noise(1)}, {"B", Noise(2)}}, {});
+  std::ifstream stream(File("huge.exr"), std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  // The attribute's name and type, its size, then x and y of the first and of the last pixel.
+  const std::string window("dataWindow\0box2i", 16);
+  const size_t last_pixel = bytes.find(window) + window.size() + 1 + 4 + 8;
+  // Each side is allowed; 2 * 16000² values are not.
+  const std::array<int32_t, 2> claim = {15999, 15999};
+  std::memcpy(bytes.data() + last_pixel, claim.data(), sizeof claim);
+  std::ofstream(File("huge.exr"), std::ios::binary) << bytes;
+  try {
+    ReadExr(File("huge.exr"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("2 channels of 16000 x 16000 px are more than"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Exr, DamagedFilesAreRefused) {

@@ -1,0 +1,13 @@
+#include "core/input_error.h"
+#include "renderers/exr_io.h"
+#include "tests/fuzz/input_file.h"
+
+// A libFuzzer target: any bytes at all are an OpenEXR image or an InputError.
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  try {
+    fenestra::ReadExr(fenestra::InputFile(data, size, ".exr"));
+  } catch (const fenestra::InputError&) {
+  }
+  return 0;
+}
