@@ -12,7 +12,7 @@ namespace fenestra {
 namespace {
 
 std::optional<Miss> ShapeFault(const std::vector<Eigen::Vector2d>& corners, double hull_area_m2,
-                               const FrameLimits& limits) {
+                               const VertexLimits& limits) {
   const double area_fraction = SignedArea(corners) / hull_area_m2;
   if (area_fraction < limits.min_area_fraction) {
     return Miss{"implausible_shape",
@@ -33,7 +33,7 @@ std::optional<Miss> ShapeFault(const std::vector<Eigen::Vector2d>& corners, doub
 }  // namespace
 
 FrameVertices ChooseFrameVertices(const std::vector<KeyPoint>& key_points, const CloudShape& shape,
-                                  const PlaneTolerance& tolerance, const FrameLimits& limits) {
+                                  const PlaneTolerance& tolerance, const VertexLimits& limits) {
   std::vector<int> on_plane;
   std::vector<Eigen::Vector2d> feet;
   for (size_t i = 0; i < key_points.size(); ++i) {

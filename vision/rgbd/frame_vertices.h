@@ -11,7 +11,7 @@
 namespace fenestra {
 
 /// What four points must be like to pass for the vertices of a frame.
-struct FrameLimits {
+struct VertexLimits {
   double min_area_fraction = 0.0;  ///< Area of the quadrilateral over that of the cloud's hull.
   double min_side_ratio = 0.0;     ///< Shortest over longest side.
 };
@@ -27,6 +27,6 @@ struct FrameVertices {
 /// Takes the key points that lie on the cloud's plane, and of their feet on it the largest
 /// quadrilateral.
 FrameVertices ChooseFrameVertices(const std::vector<KeyPoint>& key_points, const CloudShape& shape,
-                                  const PlaneTolerance& tolerance, const FrameLimits& limits);
+                                  const PlaneTolerance& tolerance, const VertexLimits& limits);
 
 }  // namespace fenestra
