@@ -12,13 +12,17 @@ namespace fenestra {
 
 /// What a frame may be like in space.
 struct FrameLimits {
-  double nearest_m;
-  double farthest_m;
-  double min_side_m;
-  double max_side_m;
-  double max_side_ratio;  ///< Longer over shorter side.
-  double max_skew_rad;    ///< Departure of a corner from a right angle.
-  double max_taper;       ///< Relative difference of opposite sides.
+  double nearest_m = 0.4;
+  double farthest_m = 15.0;
+  double min_side_m = 0.3;  ///< What a drone might fly through.
+  double max_side_m = 3.0;
+  double max_side_ratio = 2.0;  ///< Longer over shorter side.
+  /// Departure of a corner from a right angle: 15°. Of a first, rough rectangle: a side that is
+  /// 40 px long is known to 5° or so.
+  double max_skew_rad = 0.2617993877991494;
+  double max_taper = 0.25;  ///< Relative difference of opposite sides.
+
+  bool operator==(const FrameLimits&) const = default;
 };
 
 /// Whether four corners (in the order of WindowEstimate) are nearly those of such a rectangle.

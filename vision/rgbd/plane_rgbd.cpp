@@ -117,25 +117,20 @@ PlaneRgbdDetector::PlaneRgbdDetector(const RgbdCalibration& calibration,
       calibration_(Checked(calibration)),
       pinhole_(WithoutDistortion(calibration.color)),
       reader_({pinhole_, calibration.depth, calibration.X_KD, calibration.depth_unit_m}),
-      darkness_{.black_dn = 0.0, .min_contrast_dn = options.min_contrast_dn, .reach_px = 4.0},
-      fitting_{.min_contrast_dn = options.min_contrast_dn,
+      darkness_{
+          .black_dn = 0.0, .min_contrast_dn = options.search.min_contrast_dn, .reach_px = 4.0},
+      fitting_{.min_contrast_dn = options.search.min_contrast_dn,
                .reach_px = kReach_px,
                .far_px = kFar_px,
-               .min_side_support = options.min_side_support,
-               .border = {.smallest_m = options.min_border_m,
-                          .largest_share = options.max_border_share,
-                          .min_contrast_dn = options.min_contrast_dn},
+               .min_side_support = options.search.min_side_support,
+               .border = {.smallest_m = options.search.min_border_m,
+                          .largest_share = options.search.max_border_share,
+                          .min_contrast_dn = options.search.min_contrast_dn},
                .size = SizePriorOf(options.prior),
                .planes = {},
-               .vignetting = {.black_dn = 0.0, .power = options.vignetting_power}},
+               .vignetting = {.black_dn = 0.0, .power = options.search.vignetting_power}},
       noise_(NoiseOf(calibration, options, reader_)),
-      limits_{.nearest_m = options.nearest_m,
-              .farthest_m = options.farthest_m,
-              .min_side_m = options.min_side_m,
-              .max_side_m = options.max_side_m,
-              .max_side_ratio = options.max_side_ratio,
-              .max_skew_rad = options.max_skew_rad,
-              .max_taper = options.max_taper},
+      limits_(options.search.limits),
       clear_px_(kClearWindows * noise_.window_px + kClear_px * reader_.columns()) {
   if (calibration.color.has_distortion()) undistortion_ = UndistortionMap(calibration.color);
 }
@@ -154,14 +149,14 @@ Detection PlaneRgbdDetector::Detect(const Observation& observation, StageLog& lo
 
   log.Begin("segments");
   const EdgeSegments segments =
-      FindEdgeSegments(straight, {.min_length_px = options_.min_segment_px,
-                                  .min_darkness = options_.min_darkness,
-                                  .most_per_side = options_.most_segments,
+      FindEdgeSegments(straight, {.min_length_px = options_.search.min_segment_px,
+                                  .min_darkness = options_.search.min_darkness,
+                                  .most_per_side = options_.search.most_segments,
                                   .darkness = darkness_});
   log.Begin("propose");
   const auto candidates =
-      FindDarkQuadrilaterals(straight, segments, darkness_, options_.min_darkness,
-                             static_cast<size_t>(2 * options_.most_candidates));
+      FindDarkQuadrilaterals(straight, segments, darkness_, options_.search.min_darkness,
+                             static_cast<size_t>(2 * options_.search.most_candidates));
   log.Picture("segments", [&] { return DrawSegments(straight, segments, candidates); },
               {PictureView{pinhole_, calibration_.X_KD}});
   log.Begin("plane");
@@ -197,8 +192,8 @@ std::variant<std::vector<PlaneSeed>, Miss> PlaneRgbdDetector::Seeds(
                             "around it",
                             candidates.size())};
   }
-  if (found.seeds.size() > static_cast<size_t>(options_.most_candidates)) {
-    found.seeds.resize(static_cast<size_t>(options_.most_candidates));
+  if (found.seeds.size() > static_cast<size_t>(options_.search.most_candidates)) {
+    found.seeds.resize(static_cast<size_t>(options_.search.most_candidates));
   }
   return std::move(found.seeds);
 }
@@ -240,10 +235,10 @@ std::optional<Miss> PlaneRgbdDetector::Objection(const Sight& sight,
                                                  const FrameRectangle& fitted) const {
   if (auto objection = ObjectionToFrame(fitted, limits_)) return objection;
   const double clarity = FrameClarity(sight.view, fitted, darkness_);
-  if (clarity < options_.min_darkness) {
+  if (clarity < options_.search.min_darkness) {
     return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
                                         "{:.2f}, {:.2f} are needed",
-                                        clarity, options_.min_darkness)};
+                                        clarity, options_.search.min_darkness)};
   }
   const double uneven = BrightestOverDarkestSide(sight.view, fitted, kBlack_dn);
   if (uneven > kMostUneven) {
@@ -287,7 +282,7 @@ Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<Plane
   std::vector<Finished> found;
   int tried = 0;
   for (Candidate& candidate : candidates) {
-    if (found.size() == static_cast<size_t>(options_.most_windows)) break;
+    if (found.size() == static_cast<size_t>(options_.search.most_windows)) break;
     if (tried++ == kMostFinished) break;
     if (!found.empty() && candidate.score < kHopeless * *found.front().estimate.score) break;
     auto result = Finish(sight, candidate);

@@ -45,26 +45,21 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
     : options_(Validated(options)),
       calibration_(calibration),
       rectification_(calibration, options.rectification_alpha),
-      limits_{.nearest_m = options.nearest_m,
-              .farthest_m = options.farthest_m,
-              .min_side_m = options.min_side_m,
-              .max_side_m = options.max_side_m,
-              .max_side_ratio = options.max_side_ratio,
-              .max_skew_rad = options.max_skew_rad,
-              .max_taper = options.max_taper},
+      limits_(options.search.limits),
       darkness_{.black_dn = options.black_dn,
-                .min_contrast_dn = options.min_contrast_dn,
+                .min_contrast_dn = options.search.min_contrast_dn,
                 .reach_px = 4.0},
-      fitting_{.min_contrast_dn = options.min_contrast_dn,
-               .reach_px = kReach_px,
-               .far_px = kFar_px,
-               .min_side_support = options.min_side_support,
-               .border = {.smallest_m = options.min_border_m,
-                          .largest_share = options.max_border_share,
-                          .min_contrast_dn = kInnerContrast * options.min_contrast_dn},
-               .size = SizePriorOf(options.prior),
-               .planes = {},
-               .vignetting = {.black_dn = options.black_dn, .power = options.vignetting_power}} {}
+      fitting_{
+          .min_contrast_dn = options.search.min_contrast_dn,
+          .reach_px = kReach_px,
+          .far_px = kFar_px,
+          .min_side_support = options.search.min_side_support,
+          .border = {.smallest_m = options.search.min_border_m,
+                     .largest_share = options.search.max_border_share,
+                     .min_contrast_dn = kInnerContrast * options.search.min_contrast_dn},
+          .size = SizePriorOf(options.prior),
+          .planes = {},
+          .vignetting = {.black_dn = options.black_dn, .power = options.search.vignetting_power}} {}
 
 Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   const StereoObservation& seen = StereoPart(observation);
@@ -75,17 +70,17 @@ Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& l
               {picture_views[0], picture_views[1]});
 
   log.Begin("segments");
-  const EdgeSegmentSettings settings{.min_length_px = options_.min_segment_px,
-                                     .min_darkness = options_.min_darkness,
-                                     .most_per_side = options_.most_segments,
+  const EdgeSegmentSettings settings{.min_length_px = options_.search.min_segment_px,
+                                     .min_darkness = options_.search.min_darkness,
+                                     .most_per_side = options_.search.most_segments,
                                      .darkness = darkness_};
   const EdgeSegments left_segments = FindEdgeSegments(pair.left, settings);
   const EdgeSegments right_segments = FindEdgeSegments(pair.right, settings);
 
   log.Begin("propose");
   const auto candidates =
-      FindDarkQuadrilaterals(pair.left, left_segments, darkness_, options_.min_darkness,
-                             static_cast<size_t>(4 * options_.most_candidates));
+      FindDarkQuadrilaterals(pair.left, left_segments, darkness_, options_.search.min_darkness,
+                             static_cast<size_t>(4 * options_.search.most_candidates));
   log.Picture("segments", [&] { return DrawSegments(pair.left, left_segments, candidates); },
               {picture_views[0]});
   if (candidates.empty()) {
@@ -137,7 +132,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
   int finished = 0;
   std::optional<Miss> first_objection;
   for (Candidate& candidate : candidates) {
-    if (found.size() == static_cast<size_t>(options_.most_windows)) break;
+    if (found.size() == static_cast<size_t>(options_.search.most_windows)) break;
     if (finished++ == kMostFinished) break;
     if (!found.empty() && candidate.score < kHopeless * found.front().score.value()) break;
     const auto result = candidate.fitter.Finish(candidate.rough);
@@ -186,7 +181,7 @@ std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilat
                                 limits_, darkness_);
     seeds.insert(seeds.end(), more.begin(), more.end());
   }
-  return ClearestSeeds(std::move(seeds), static_cast<size_t>(options_.most_candidates));
+  return ClearestSeeds(std::move(seeds), static_cast<size_t>(options_.search.most_candidates));
 }
 
 std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
@@ -194,10 +189,10 @@ std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
   const FrameRectangle& frame = fit.adjustment.frame;
   if (auto objection = ObjectionToFrame(frame, limits_)) return objection;
   const double clarity = FrameClarity(left, frame, darkness_);
-  if (clarity < options_.min_darkness) {
+  if (clarity < options_.search.min_darkness) {
     return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
                                         "{:.2f}, {:.2f} are needed",
-                                        clarity, options_.min_darkness)};
+                                        clarity, options_.search.min_darkness)};
   }
   // Without an opening of its own it is one: that of a light frame.
   if (fit.inner_support < kOpening && BrightBand(left, frame, options_.black_dn) > kLight) {

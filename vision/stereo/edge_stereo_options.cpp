@@ -1,7 +1,5 @@
 #include "vision/stereo/edge_stereo_options.h"
 
-#include <numbers>
-
 #include "core/input_error.h"
 
 namespace fenestra {
@@ -10,63 +8,20 @@ namespace {
 using Options = EdgeStereoOptions;
 using Table = ParameterTable<Options>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 #define FENESTRA_FIELD(field) \
   [](Options & o) -> auto& {  \
     return o.field;           \
   }
-
-void AddShape(Table& table) {
-  table
-      .Number("rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
-              "0 shows only what both sensors saw, 1 all that either saw")
-      .Number("nearest_m", FENESTRA_FIELD(nearest_m), {0.1, 1000.0},
-              "smallest depth that is searched")
-      .Number("farthest_m", FENESTRA_FIELD(farthest_m), {0.1, 1000.0},
-              "largest depth that is searched")
-      .Number("min_side_m", FENESTRA_FIELD(min_side_m), {0.01, 1000.0}, "smallest window side")
-      .Number("max_side_m", FENESTRA_FIELD(max_side_m), {0.01, 1000.0}, "largest window side")
-      .Number("max_side_ratio", FENESTRA_FIELD(max_side_ratio), {1.0, 100.0},
-              "longest side over shortest side")
-      .Number("max_skew_deg", FENESTRA_FIELD(max_skew_rad), {0.0, 90.0, kDegree},
-              "departure of a corner from a right angle, before the fit")
-      .Number("max_taper", FENESTRA_FIELD(max_taper), {0.0, 2.0},
-              "relative difference of opposite sides, before the fit");
-}
-
-void AddLook(Table& table) {
-  table
-      .Number("min_contrast_dn", FENESTRA_FIELD(min_contrast_dn), {1.0, 255.0},
-              "weakest step of an edge")
-      .Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "grey value without light")
-      .Number("vignetting_power", FENESTRA_FIELD(vignetting_power), {0.0, 10.0},
-              "light falls off as this power of the cosine to the optical axis; 0: corrected")
-      .Number("min_segment_px", FENESTRA_FIELD(min_segment_px), {4.0, 1000.0},
-              "shortest piece of a straight edge")
-      .Integer("most_segments", FENESTRA_FIELD(most_segments), {4.0, 200.0},
-               "straight edges that are kept, for each side")
-      .Integer("most_candidates", FENESTRA_FIELD(most_candidates), {1.0, 100.0},
-               "rough rectangles that are measured")
-      .Integer("most_windows", FENESTRA_FIELD(most_windows), {1.0, 100.0},
-               "windows that are looked for, the best first")
-      .Number("min_side_support", FENESTRA_FIELD(min_side_support), {0.0, 1.0},
-              "share of each side that must be seen")
-      .Number("min_darkness", FENESTRA_FIELD(min_darkness), {0.0, 1.0},
-              "how much darker the frame must be than what surrounds it; 1: four times")
-      .Number("min_border_m", FENESTRA_FIELD(min_border_m), {0.001, 10.0},
-              "narrowest frame whose inner edge is used")
-      .Number("max_border_share", FENESTRA_FIELD(max_border_share), {0.01, 0.49},
-              "widest frame, as a share of the shorter side");
-}
 
 }  // namespace
 
 const Table& EdgeStereoParameters() {
   static const Table table = [] {
     Table made;
-    AddShape(made);
-    AddLook(made);
+    made.Number("rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
+                "0 shows only what both sensors saw, 1 all that either saw");
+    made.Adopt<FrameSearchOptions>(FrameSearchParameters(), FENESTRA_FIELD(search));
+    made.Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "grey value without light");
     made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
     return made;
   }();
@@ -85,8 +40,7 @@ void Validate(const Options& options) {
     const auto objection = info.Objection(table.Get(options, info.name));
     demand(!objection, objection.value_or(""));
   }
-  demand(options.nearest_m < options.farthest_m, "nearest_m must be less than farthest_m");
-  demand(options.min_side_m < options.max_side_m, "min_side_m must be less than max_side_m");
+  for (const std::string& fault : FaultsOf(options.search)) demand(false, fault);
   for (const std::string& fault : FaultsOf(options.prior)) demand(false, fault);
   if (!faults.empty()) throw InputError(std::move(faults));
 }

@@ -129,8 +129,9 @@ TEST(PlaneRgbd, ScalingTheWorldScalesTheEstimate) {
   big.X_KD = Pose::Translation(3.0 * small.X_KD.translation());
   RgbdObservation seen = Seen(small, SceneAt({.distance_m = 2.0, .azimuth_rad = 0.2}), 3);
   PlaneRgbdOptions options;
-  for (double* length : {&options.nearest_m, &options.farthest_m, &options.min_side_m,
-                         &options.max_side_m, &options.min_border_m}) {
+  for (double* length : {&options.search.limits.nearest_m, &options.search.limits.farthest_m,
+                         &options.search.limits.min_side_m, &options.search.limits.max_side_m,
+                         &options.search.min_border_m}) {
     *length *= 3.0;
   }
   options.depth_to_m *= 3.0;
@@ -453,8 +454,8 @@ TEST(PlaneRgbd, StagesAndPicturesAreLoggedAndNothingIsRemembered) {
 TEST(PlaneRgbdOptionsTest, ValidateNamesAllFaultsAtOnce) {
   EXPECT_NO_THROW(Validate(PlaneRgbdOptions{}));
   PlaneRgbdOptions bad;
-  bad.min_darkness = 2.0;
-  bad.nearest_m = 20.0;
+  bad.search.min_darkness = 2.0;
+  bad.search.limits.nearest_m = 20.0;
   bad.prior.expected_width_m = 1.0;
   try {
     Validate(bad);

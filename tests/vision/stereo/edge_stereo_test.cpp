@@ -123,7 +123,8 @@ TEST(EdgeStereo, ScalingTheWorldScalesTheEstimate) {
                                            kNoise_dn, RandomStream(2));
   EdgeStereoOptions big;
   for (double* length :
-       {&big.nearest_m, &big.farthest_m, &big.min_side_m, &big.max_side_m, &big.min_border_m}) {
+       {&big.search.limits.nearest_m, &big.search.limits.farthest_m, &big.search.limits.min_side_m,
+        &big.search.limits.max_side_m, &big.search.min_border_m}) {
     *length *= 3.0;
   }
   const WindowEstimate one = Found(Detect(rig, seen));
@@ -334,8 +335,8 @@ TEST(EdgeStereo, StagesAndPicturesAreLoggedAndNothingIsRemembered) {
 TEST(EdgeStereoOptionsTest, ValidateNamesAllFaultsAtOnce) {
   EXPECT_NO_THROW(Validate(EdgeStereoOptions{}));
   EdgeStereoOptions bad;
-  bad.min_darkness = 2.0;
-  bad.nearest_m = 20.0;
+  bad.search.min_darkness = 2.0;
+  bad.search.limits.nearest_m = 20.0;
   bad.prior.expected_width_m = 1.0;
   try {
     Validate(bad);
