@@ -41,7 +41,7 @@ TEST(CalibrateCommandTest, TheHelpListsItAndItsOptions) {
 
 TEST(CalibrateCommandTest, PicturesOfARealRigGiveFilesThatOthersRead) {
   const TemporaryFolder folder;
-  const Outcome outcome = Fenestra(Calibrate(
+  const ProgramOutput outcome = Fenestra(Calibrate(
       "left*.jpg", "right*.jpg", "--corners 9x6 --square-mm 30 --out " + folder.path().string()));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("RMS"), HasSubstr("left01"), HasSubstr("stereo.yaml")));
@@ -98,7 +98,7 @@ TEST(CalibrateCommandTest, PicturesOfARealRigGiveFilesThatOthersRead) {
 
 TEST(CalibrateCommandTest, WhatItSaysItWroteIsWhatThereIs) {
   const TemporaryFolder folder;
-  const Outcome good =
+  const ProgramOutput good =
       Fenestra(Calibrate("left0?.jpg", "right0?.jpg",
                          "--corners 9x6 --square-mm 30 --out " + (folder / "rig").string()));
   ASSERT_EQ(good.exit_code, 0) << good.text;
@@ -175,7 +175,7 @@ TEST(CalibrateCommandTest, APictureThatIsMissingOnEachSideIsNoticed) {
 TEST(CalibrateCommandTest, AFileInTheFoldersPlaceIsKept) {
   const TemporaryFolder folder;
   const auto file = folder.Write("rig", "mine");
-  const Outcome outcome = Fenestra(Calibrate(
+  const ProgramOutput outcome = Fenestra(Calibrate(
       "left0?.jpg", "right0?.jpg", "--corners 9x6 --square-mm 30 --out " + file.string()));
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_THAT(outcome.text, StartsWith(file.string()));

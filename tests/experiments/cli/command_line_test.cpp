@@ -30,7 +30,7 @@ TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
        {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd", "list", "export",
         "calibrate", "calibrate stereo", "emva", "depth", "bound", "merge", "submit", "report",
         "score", "serve"}) {
-    const Outcome outcome = Fenestra(std::string(command) + " --help");
+    const ProgramOutput outcome = Fenestra(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;
   }
@@ -65,7 +65,7 @@ TEST_P(BadStudyTest, IsRefusedWithItsPlaceAndLeavesNothing) {
   const TemporaryFolder folder;
   const auto study = folder.Write("bad.yaml", text);
   const auto out = folder / "out";
-  const Outcome outcome = Fenestra("run " + study.string() + " --out " + out.string());
+  const ProgramOutput outcome = Fenestra("run " + study.string() + " --out " + out.string());
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_THAT(outcome.text, HasSubstr(message));
   EXPECT_THAT(outcome.text, Not(HasSubstr("terminate")));
@@ -92,7 +92,7 @@ TEST(CommandLineTest, MissingAndHugeFilesAreRefused) {
   EXPECT_EQ(Fenestra("run " + (folder / "none.yaml").string() + out).exit_code, 2);
   EXPECT_EQ(Fenestra("run " + folder.path().string() + out).exit_code, 2);
   const auto zeros = folder.Write("zeros.yaml", std::string(100 << 20, '\0'));
-  const Outcome outcome = Fenestra("run " + zeros.string() + out);
+  const ProgramOutput outcome = Fenestra("run " + zeros.string() + out);
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("at most"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
@@ -102,12 +102,12 @@ TEST(CommandLineTest, RunReplayRenderAndDetectAgree) {
   const TemporaryFolder folder;
   const std::string study = folder.Write("tiny.yaml", kStudy).string();
   const std::string out = (folder / "out").string();
-  const Outcome run = Fenestra("run " + study + " --out " + out + " --jobs 2");
+  const ProgramOutput run = Fenestra("run " + study + " --out " + out + " --jobs 2");
   ASSERT_EQ(run.exit_code, 0) << run.text;
   EXPECT_THAT(run.text, HasSubstr("paper-rgbd"));
   EXPECT_THAT(run.text, Not(HasSubstr("\r")));  // A progress bar is for terminals.
 
-  const Outcome replay = Fenestra("replay " + out + " 0/0");
+  const ProgramOutput replay = Fenestra("replay " + out + " 0/0");
   EXPECT_EQ(replay.exit_code, 0);
   EXPECT_THAT(replay.text, HasSubstr("equal the recorded ones"));
   EXPECT_EQ(Fenestra("replay " + out + " 0/7").exit_code, 2);
@@ -115,8 +115,9 @@ TEST(CommandLineTest, RunReplayRenderAndDetectAgree) {
 
   const std::string files = (folder / "trial").string();
   ASSERT_EQ(Fenestra("render " + study + " --out " + files).exit_code, 0);
-  const Outcome detect = Fenestra("detect rgbd --color " + files + "/color.png --depth " + files +
-                                  "/depth.png --calibration " + files + "/calibration.yaml --json");
+  const ProgramOutput detect =
+      Fenestra("detect rgbd --color " + files + "/color.png --depth " + files +
+               "/depth.png --calibration " + files + "/calibration.yaml --json");
   ASSERT_EQ(detect.exit_code, 0) << detect.text;
   const auto found = nlohmann::json::parse(detect.text);
   ASSERT_EQ(found["outcome"], "window");
@@ -131,7 +132,7 @@ TEST(CommandLineTest, AnExportedSceneRendersWithTheTruthOfItsTrial) {
   const std::string scene = (folder / "scene.glb").string();
   ASSERT_EQ(Fenestra("export " + study + " --out " + scene).exit_code, 0);
   const std::string views = (folder / "views").string();
-  const Outcome render = Fenestra(
+  const ProgramOutput render = Fenestra(
       "render " + scene + " --camera depth --sky cie_overcast --sun-lx 1000 --out " + views);
   ASSERT_EQ(render.exit_code, 0) << render.text;
   EXPECT_TRUE(std::filesystem::exists(folder / "views/depth/color.png"));
@@ -153,7 +154,7 @@ TEST(CommandLineTest, BrokenSceneFilesAreRefusedWithTheirPlace) {
       folder.Write("broken.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 7}]})")
           .string();
   const std::string out = (folder / "out").string();
-  const Outcome outcome = Fenestra("render " + broken + " --out " + out);
+  const ProgramOutput outcome = Fenestra("render " + broken + " --out " + out);
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("/nodes/0/mesh"));
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));

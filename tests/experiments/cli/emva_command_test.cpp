@@ -32,13 +32,13 @@ TEST(EmvaCommandTest, TheHelpListsItAndItsOptions) {
 TEST(EmvaCommandTest, TakesASeriesAndEvaluatesItAgain) {
   const TemporaryFolder folder;
   const std::string in = folder.path().string();
-  const Outcome outcome =
+  const ProgramOutput outcome =
       Fenestra("emva " + in + " --width-px 64 --height-px 48 --exposures 50 --frames 8");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("put in"), HasSubstr("photon_transfer.png")));
   EXPECT_THAT(ReadFile(folder / "emva1288.txt"), HasSubstr("v 4.0"));
   const auto first = nlohmann::json::parse(ReadFile(folder / "results.json"));
-  const Outcome again = Fenestra("emva " + in + " --evaluate-only");
+  const ProgramOutput again = Fenestra("emva " + in + " --evaluate-only");
   ASSERT_EQ(again.exit_code, 0) << again.text;
   const auto second = nlohmann::json::parse(ReadFile(folder / "results.json"));
   ASSERT_EQ(first.at("figures").size(), second.at("figures").size());
@@ -75,7 +75,7 @@ TEST(EmvaCommandTest, AFaultyDescriptorIsReportedLineByLine) {
   const auto file = folder.Write("emva1288.txt",
                                  "v 4.0\nn 10 64 48\nb ten 200\ni images\\a.png\n"
                                  "i images\\b.png\nd 1000\ni images\\c.png\n");
-  const Outcome outcome = Fenestra("emva " + folder.path().string() + " --evaluate-only");
+  const ProgramOutput outcome = Fenestra("emva " + folder.path().string() + " --evaluate-only");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_EQ(outcome.text, file.string() + ":3: 'ten' is not a positive number\n" + file.string() +
                               ":6: needs two files: temporal noise is their difference\n");
@@ -90,7 +90,7 @@ TEST(EmvaCommandTest, AMissingFrameIsNamedAndTheFiguresOfBeforeAreKept) {
       0);
   const std::string before = ReadFile(folder / "results.json");
   std::filesystem::remove(folder / "images/bright_0003_001.png");
-  const Outcome outcome = Fenestra("emva " + in + " --evaluate-only");
+  const ProgramOutput outcome = Fenestra("emva " + in + " --evaluate-only");
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_THAT(outcome.text, HasSubstr("bright_0003_001.png"));
   EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;

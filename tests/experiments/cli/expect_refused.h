@@ -14,7 +14,7 @@ namespace fenestra {
 /// Exit code 2, one line (and the pointer to the help, if the line is CLI11's), and no file.
 inline void ExpectRefused(const std::string& arguments, const std::string& message,
                           const std::filesystem::path& out) {
-  const Outcome outcome = Fenestra(arguments);
+  const ProgramOutput outcome = Fenestra(arguments);
   EXPECT_EQ(outcome.exit_code, 2) << arguments << "\n" << outcome.text;
   EXPECT_THAT(outcome.text, ::testing::HasSubstr(message)) << arguments;
   EXPECT_THAT(outcome.text, ::testing::Not(::testing::HasSubstr("terminate"))) << arguments;

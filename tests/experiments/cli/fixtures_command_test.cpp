@@ -39,23 +39,24 @@ class FixturesCommandTest : public ::testing::Test {
 
 TEST_F(FixturesCommandTest, WritesAndVerifiesAndTheOtherCommandsReadIt) {
   const std::string out = Out("out");
-  const Outcome made = Fenestra(fmt::format("fixtures {} --format all --out {}", study_, out));
+  const ProgramOutput made =
+      Fenestra(fmt::format("fixtures {} --format all --out {}", study_, out));
   ASSERT_EQ(made.exit_code, 0) << made.text;
   EXPECT_THAT(made.text, AllOf(HasSubstr("4 trials of 'small', about"), HasSubstr("are in")));
   EXPECT_THAT(Fenestra("fixtures --verify " + out).text, HasSubstr("are those that were written"));
 
-  const Outcome scored = Fenestra(
+  const ProgramOutput scored = Fenestra(
       fmt::format("score {}/stereo.yaml --detector paper-stereo --out {}", out, Out("scored")));
   ASSERT_EQ(scored.exit_code, 0) << scored.text;
   const std::string row = ReadFile(folder_ / "scored/trials.csv");
   EXPECT_THAT(row, HasSubstr("paper-stereo"));
   const std::string observation = out + "/bundle/c002_t0000/observation/";
-  const Outcome bundle = Fenestra(fmt::format(
+  const ProgramOutput bundle = Fenestra(fmt::format(
       "detect rgbd --color {0}color.png --depth {0}depth.png --calibration {0}calibration.yaml",
       observation));
   EXPECT_EQ(bundle.exit_code, 0) << bundle.text;
   const std::string sequence = out + "/tum/c002_t0000/";
-  const Outcome tum = Fenestra(fmt::format(
+  const ProgramOutput tum = Fenestra(fmt::format(
       "detect rgbd --color {0}rgb/1000000000.000000.png --depth {0}depth/1000000000.000000.png "
       "--calibration {0}calibration.yaml",
       sequence));
@@ -64,7 +65,7 @@ TEST_F(FixturesCommandTest, WritesAndVerifiesAndTheOtherCommandsReadIt) {
   std::string picture = ReadFile(fs::path(observation) / "color.png");
   picture[100] = static_cast<char>(picture[100] ^ 1);
   folder_.Write("out/bundle/c002_t0000/observation/color.png", picture);
-  const Outcome damaged = Fenestra("fixtures --verify " + out);
+  const ProgramOutput damaged = Fenestra("fixtures --verify " + out);
   EXPECT_EQ(damaged.exit_code, 2);
   EXPECT_THAT(damaged.text, HasSubstr("color.png: is not the file that was written"));
 }
@@ -79,7 +80,7 @@ TEST_F(FixturesCommandTest, RecordedTrialsAreThoseOfTheirStudy) {
 }
 
 TEST_F(FixturesCommandTest, ADryRunShowsTrialsAndSizeAndWritesNothing) {
-  const Outcome outcome = Fenestra(fmt::format(
+  const ProgramOutput outcome = Fenestra(fmt::format(
       "fixtures {} --trials 0-1 --where 'sensor = rgbd and distance_m = 3' --dry-run --out {}",
       study_, Out("out")));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;

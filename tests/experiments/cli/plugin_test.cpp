@@ -29,7 +29,7 @@ TEST(PluginTest, ACrashOrAHangInALibraryCostsItsTrialAndTheRestGoesOn) {
       "  - {name: test-detector, label: throwing, options: {mode: throw}}\n"
       "  - {name: test-detector, label: in-process, isolate: false}\n");
   const std::string out = (folder / "out").string();
-  const Outcome run = Fenestra("run " + study.string() + kPlugin + " --out " + out);
+  const ProgramOutput run = Fenestra("run " + study.string() + kPlugin + " --out " + out);
   ASSERT_EQ(run.exit_code, 0) << run.text;
   const std::string rows = ReadFile(folder / "out/trials.csv");
   for (const char* bad : {",broken,crashed,died,it was ended by signal 11",

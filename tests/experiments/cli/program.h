@@ -7,13 +7,13 @@
 
 namespace fenestra {
 
-struct Outcome {
+struct ProgramOutput {
   int exit_code;
   std::string text;  ///< Standard output and standard error.
 };
 
 /// The program in a process of its own, without input. Arguments are read by the shell.
-inline Outcome Fenestra(const std::string& arguments) {
+inline ProgramOutput Fenestra(const std::string& arguments) {
   const std::string command = std::string(FENESTRA_PROGRAM) + " " + arguments + " 2>&1 </dev/null";
   FILE* pipe = popen(command.c_str(), "r");
   std::string text;

@@ -107,10 +107,10 @@ TEST_F(RunCommandTest, AnInterruptEndsCleanlyAndTheSameCommandGoesOn) {
               AllOf(HasSubstr(fmt::format("interrupted; {} of 50 trials are stored", stored)),
                     HasSubstr("The same command goes on")));
 
-  const Outcome rest = Fenestra(Command("out"));
+  const ProgramOutput rest = Fenestra(Command("out"));
   EXPECT_EQ(rest.exit_code, 0) << rest.text;
   EXPECT_THAT(rest.text, HasSubstr(fmt::format("{} of 50 trials are stored already", stored)));
-  const Outcome again = Fenestra(Command("out"));
+  const ProgramOutput again = Fenestra(Command("out"));
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.text, HasSubstr("is complete; nothing was run"));
   ASSERT_EQ(Fenestra(Command("whole")).exit_code, 0);
@@ -150,7 +150,7 @@ TEST_F(RunCommandTest, ADamagedResultIsRefusedAndUntouched) {
   bytes.replace(4096, 2048, std::string(2048, '\xAA'));
   folder_.Write("out/results.sqlite", bytes);
   for (const std::string more : {"", " --restart"}) {
-    const Outcome outcome = Fenestra(Command("out") + more);
+    const ProgramOutput outcome = Fenestra(Command("out") + more);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
     EXPECT_THAT(outcome.text, AllOf(HasSubstr("results.sqlite: "), Not(HasSubstr("terminate"))));
     EXPECT_EQ(ReadFile(folder_ / "out/results.sqlite"), bytes);
@@ -162,7 +162,7 @@ TEST_F(RunCommandTest, AnotherStudyIsRefusedUntilItShallReplaceTheResult) {
   ASSERT_EQ(Fenestra(Command("out")).exit_code, 0);
   const std::string before = ReadFile(folder_ / "out/results.sqlite");
   WriteStudy(2, 1);
-  const Outcome refused = Fenestra(Command("out"));
+  const ProgramOutput refused = Fenestra(Command("out"));
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.text,
               AllOf(HasSubstr("'seed: 1' there, 'seed: 2' here"), HasSubstr("--restart")));
@@ -172,7 +172,7 @@ TEST_F(RunCommandTest, AnotherStudyIsRefusedUntilItShallReplaceTheResult) {
 }
 
 /// The exit code and the words of a line of shell.
-Outcome Shell(const std::string& line, const fs::path& said) {
+ProgramOutput Shell(const std::string& line, const fs::path& said) {
   const int status = std::system(("(" + line + ") > " + said.string() + " 2>&1").c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadFile(said)};
 }
@@ -186,7 +186,7 @@ TEST_F(RunCommandTest, AFullDiskEndsTheRunAndWhatIsStoredStays) {
     GTEST_SKIP() << "needs the right to mount a file system";
   }
   WriteStudy(1, 100);
-  const Outcome outcome =
+  const ProgramOutput outcome =
       Shell(mount + FENESTRA_PROGRAM " " + Command("out") + "; code=$?; cp " + out +
                 "/results.sqlite " + (folder_ / "kept").string() + "; ls " + out + "; exit $code'",
             folder_ / "said.txt");
@@ -199,7 +199,7 @@ TEST_F(RunCommandTest, AFullDiskEndsTheRunAndWhatIsStoredStays) {
   const int kept = StoredRows("moved");
   EXPECT_GT(kept, 0);
   EXPECT_LT(kept, 200);
-  const Outcome rest = Fenestra(Command("moved"));
+  const ProgramOutput rest = Fenestra(Command("moved"));
   EXPECT_EQ(rest.exit_code, 0);
   EXPECT_THAT(rest.text, HasSubstr(fmt::format("{} of 200 trials are stored already", kept)));
 }
@@ -220,12 +220,12 @@ TEST_F(RunCommandTest, AFolderThatCannotBeWrittenIsRefused) {
   };
   // A complete result needs no writing.
   EXPECT_EQ(run("").exit_code, 0);
-  const Outcome restart = run(" --restart");
+  const ProgramOutput restart = run(" --restart");
   EXPECT_EQ(restart.exit_code, 2) << restart.text;
   EXPECT_THAT(restart.text,
               AllOf(HasSubstr("results.sqlite: cannot be made"), Not(HasSubstr("terminate"))));
   EXPECT_EQ(ReadFile(folder_ / "out/results.sqlite"), before);
-  const Outcome fresh =
+  const ProgramOutput fresh =
       Shell(mount + FENESTRA_PROGRAM " " + Command("out/new") + "'", folder_ / "said.txt");
   EXPECT_EQ(fresh.exit_code, 2) << fresh.text;
   EXPECT_THAT(fresh.text, HasSubstr("cannot be made"));
@@ -235,16 +235,16 @@ TEST_F(RunCommandTest, ShardsAreMergedAndAReportIsMadeOfTheRowsAlone) {
   WriteStudy(1, 3);
   ASSERT_EQ(Fenestra(Command("whole")).exit_code, 0);
   for (const char* shard : {"1", "2"}) {
-    const Outcome outcome = Fenestra(fmt::format("{} --shard {}/2", Command(shard), shard));
+    const ProgramOutput outcome = Fenestra(fmt::format("{} --shard {}/2", Command(shard), shard));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   }
   const std::string in = folder_.path().string();
-  const Outcome merged = Fenestra(fmt::format("merge {0}/1 {0}/2 --out {0}/merged", in));
+  const ProgramOutput merged = Fenestra(fmt::format("merge {0}/1 {0}/2 --out {0}/merged", in));
   EXPECT_EQ(merged.exit_code, 0) << merged.text;
   EXPECT_EQ(RowsWithoutTimes(folder_ / "merged"), RowsWithoutTimes(folder_ / "whole"));
   EXPECT_EQ(Fenestra(fmt::format("merge {0}/1 --out {0}/merged", in)).exit_code, 2);
 
-  const Outcome report =
+  const ProgramOutput report =
       Fenestra(fmt::format("report {0}/whole/results.sqlite --pictures --out {0}/report", in));
   EXPECT_EQ(report.exit_code, 0) << report.text;
   for (const char* file : {"trials.csv", "summary.csv", "summary.md", "study.yaml"}) {
@@ -261,8 +261,9 @@ TEST_F(RunCommandTest, WrongShardsAndSubmissionsAreRefused) {
   EXPECT_EQ(Fenestra("submit " + study_.string() + " --slurm").exit_code, 2);
   EXPECT_EQ(Fenestra("submit " + study_.string() + " --slurm --shards 0").exit_code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "out"));
-  const Outcome dry = Fenestra("submit " + study_.string() +
-                               " --slurm --shards 2 --dry-run --out " + (folder_ / "out").string());
+  const ProgramOutput dry =
+      Fenestra("submit " + study_.string() + " --slurm --shards 2 --dry-run --out " +
+               (folder_ / "out").string());
   EXPECT_EQ(dry.exit_code, 0) << dry.text;
   EXPECT_THAT(dry.text, AllOf(HasSubstr("--array=1-2"), HasSubstr("afterok:")));
   EXPECT_FALSE(fs::exists(folder_ / "out"));
@@ -272,7 +273,7 @@ TEST_F(RunCommandTest, TheExampleReadsAResultWithPythonAlone) {
   WriteStudy(1, 2);
   ASSERT_EQ(Fenestra(Command("out")).exit_code, 0);
   const std::string example = FENESTRA_SOURCE_DIR "/examples/analysis.py ";
-  const Outcome outcome =
+  const ProgramOutput outcome =
       Shell("python3 " + example + (folder_ / "out").string(), folder_ / "said.txt");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("small, seed 1"), HasSubstr("distance_m 6"),
