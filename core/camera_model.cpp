@@ -172,6 +172,21 @@ std::optional<Vector3d> CameraModel::UnprojectRay(const Vector2d& pixel) const {
   return Vector3d(n.x(), n.y(), 1.0);
 }
 
+std::optional<Vector3d> CameraModel::UnprojectRay(const Vector2d& pixel,
+                                                  const Vector2d& near) const {
+  if (!has_distortion()) return UnprojectRay(pixel);
+  const Vector2d target((pixel.x() - parameters_.cx_px) / parameters_.fx_px,
+                        (pixel.y() - parameters_.cy_px) / parameters_.fy_px);
+  // Newton's method doubles the right digits in each step: from a part of 1e-4 pixels, one will do.
+  Vector2d n = near;
+  for (int i = 0; i < 3 && n.squaredNorm() <= max_radius_ * max_radius_; ++i) {
+    const Vector2d residual = Distort(parameters_.distortion, n) - target;
+    if (residual.squaredNorm() < 1e-13 * 1e-13) return Vector3d(n.x(), n.y(), 1.0);
+    n -= DistortionJacobian(parameters_.distortion, n).inverse() * residual;
+  }
+  return UnprojectRay(pixel);  // A poor guess, or an edge of the valid domain.
+}
+
 bool CameraModel::Contains(const Vector2d& pixel) const {
   return pixel.x() >= -0.5 && pixel.x() <= parameters_.width_px - 0.5 && pixel.y() >= -0.5 &&
          pixel.y() <= parameters_.height_px - 0.5;

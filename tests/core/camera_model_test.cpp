@@ -59,6 +59,23 @@ TEST(CameraModelTest, ProjectionInvertsUnprojectionOverTheWholeValidDomain) {
   }
 }
 
+TEST(CameraModelTest, AGuessChangesARayByRoundingOnlyHoweverPoorItIs) {
+  const CameraModel camera = WideCamera();
+  const RandomStream stream(2);
+  for (uint64_t i = 0; i < 2000; ++i) {
+    const Vector2d pixel(751.0 * stream.Uniform(4 * i), 479.0 * stream.Uniform(4 * i + 1));
+    const Vector3d ray = *camera.UnprojectRay(pixel);
+    const Vector2d direction(stream.Normal(4 * i + 2), stream.Normal(4 * i + 3));
+    for (const double off : {0.0, 1e-7, 1e-4, 0.1, 10.0, 1e300}) {
+      const auto guessed = camera.UnprojectRay(pixel, ray.head<2>() + off * direction);
+      ASSERT_TRUE(guessed);
+      // 1e-13 in the distorted image, whose slope is at least 0.6 inside this one.
+      EXPECT_LT((*guessed - ray).norm(), 2e-13);
+    }
+  }
+  EXPECT_FALSE(camera.UnprojectRay({1e7, 0.0}, {0.1, 0.1}));
+}
+
 TEST(CameraModelTest, OutsideTheValidDomainThereIsNoPixelAndNoRay) {
   const CameraModel camera = WideCamera();
   EXPECT_FALSE(camera.Project({1.02 * camera.max_radius(), 0.0, 1.0}));
