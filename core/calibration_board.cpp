@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 
 void Validate(const CalibrationBoard& board) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"calibration board", 0, 0, std::move(message)});
-  };
+  Demands demand("calibration board");
   constexpr int kFewest = 3;
   constexpr int kMost = 64;
   demand(board.columns >= kFewest && board.columns <= kMost && board.rows >= kFewest &&
@@ -31,7 +28,7 @@ void Validate(const CalibrationBoard& board) {
                        "to be odd and the other one even",
                        board.columns, board.rows));
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 }  // namespace fenestra

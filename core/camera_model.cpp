@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 namespace {
@@ -65,10 +65,7 @@ Matrix2d DistortionJacobian(const BrownConrady& d, const Vector2d& n) {
 }
 
 void Validate(const CameraParameters& p) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"camera", 0, 0, std::move(message)});
-  };
+  Demands demand("camera");
   demand(p.width_px >= 1 && p.width_px <= 16384 && p.height_px >= 1 && p.height_px <= 16384,
          fmt::format("image size {} x {} px is not between 1 and 16384", p.width_px, p.height_px));
   demand(std::isfinite(p.fx_px) && p.fx_px > 0.0 && std::isfinite(p.fy_px) && p.fy_px > 0.0,
@@ -78,7 +75,7 @@ void Validate(const CameraParameters& p) {
   demand(std::isfinite(d.k1) && std::isfinite(d.k2) && std::isfinite(d.p1) && std::isfinite(d.p2) &&
              std::isfinite(d.k3),
          "distortion coefficients are not finite");
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 }  // namespace

@@ -172,6 +172,16 @@ class ParameterTable {
     return getters_[IndexOf(name)](settings);
   }
 
+  /// Of all parameters whose values are not allowed (ParameterInfo::Objection).
+  std::vector<std::string> Objections(const Settings& settings) const {
+    std::vector<std::string> objections;
+    for (size_t i = 0; i < infos_.size(); ++i) {
+      const auto objection = infos_[i].Objection(getters_[i](settings));
+      if (objection) objections.push_back(*objection);
+    }
+    return objections;
+  }
+
  private:
   using Getter = std::function<ParameterValue(const Settings&)>;
   using Setter = std::function<void(Settings&, const ParameterValue&)>;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/demands.h"
 #include "core/input_error.h"
 #include "scenes/board_scene.h"
 
@@ -82,17 +83,14 @@ Pose RigPoseFor(const StereoRig& rig, const BoardSessionOptions& session,
 
 void Validate(const BoardSessionOptions& o) {
   Validate(o.board);
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"calibration session", 0, 0, std::move(message)});
-  };
+  Demands demand("calibration session");
   demand(o.views >= 3, fmt::format("{} views are fewer than 3", o.views));
   demand(o.illuminance_lx > 0.0, "the board must be lit");
   demand(o.smallest_share > 0.0 && o.smallest_share <= o.largest_share && o.largest_share < 1.0,
          "the board's share of the image's width must lie between 0 and 1");
   demand(o.largest_tilt_rad >= 0.0 && o.largest_tilt_rad < 1.5,
          "the board's tilt must lie between 0 and 85 degrees");
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 BoardWorld::BoardWorld(const CalibrationBoard& board)

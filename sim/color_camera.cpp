@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
-#include "core/input_error.h"
+#include "core/demands.h"
 #include "sim/srgb.h"
 
 namespace fenestra {
@@ -54,15 +54,12 @@ CameraModel DesignOf(const ColorCameraOptions& o) {
 }
 
 void Validate(const ColorCameraOptions& o) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"colour camera", 0, 0, std::move(message)});
-  };
+  Demands demand("colour camera");
   demand(o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
          fmt::format("blur of {} px in the corners is less than {} px in the centre",
                      o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
   demand(o.mean_dn > 0.0 && o.mean_dn < 255.0, "the image's mean must lie between 0 and 255");
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
   Validate(RollingShutter{.motion = {}, .readout_s = o.readout_s});
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/input_error.h"
+#include "core/demands.h"
 #include "core/wide.h"
 
 namespace fenestra {
@@ -74,10 +74,7 @@ FENESTRA_WIDE void DigitiseRow(const float* electrons, const float* offset_e, fl
 }  // namespace
 
 void Validate(const ImageSensorOptions& o, const char* who) {
-  std::vector<InputFault> faults;
-  const auto demand = [&](bool holds, std::string message) {
-    if (!holds) faults.push_back({who, 0, 0, std::move(message)});
-  };
+  Demands demand(who);
   demand(o.saturation_e > 0.0, fmt::format("saturation {} e is not positive", o.saturation_e));
   demand(o.read_noise_e >= 0.0 && o.dark_current_e_s >= 0.0 && o.dsnu_e >= 0.0 && o.prnu >= 0.0 &&
              o.row_noise_e >= 0.0,
@@ -90,7 +87,7 @@ void Validate(const ImageSensorOptions& o, const char* who) {
       fmt::format("{} output bits are not between 1 and the ADC's {}", o.output_bits, o.adc_bits));
   demand(o.black_level_dn >= 0.0 && o.black_level_dn < AdcFullScale(o),
          fmt::format("black level {} DN is outside the ADC's range", o.black_level_dn));
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 ExposureSetting ChooseExposure(const ExposureOptions& exposure, const ImageSensorOptions& sensor,

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/input_error.h"
+#include "core/demands.h"
 #include "core/wide.h"
 
 namespace fenestra {
@@ -130,10 +130,7 @@ double SpeckleMatchingOptions::SearchEnd(const DisparityRange& range) const {
 }
 
 void Validate(const SpeckleMatchingOptions& o) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"speckle matching", 0, 0, std::move(message)});
-  };
+  Demands demand("speckle matching");
   for (const int side : {o.window_width_px, o.window_height_px}) {
     demand(side >= 3 && side <= 15 && side % 2 == 1,
            fmt::format("the window's sides must be odd numbers from 3 to 15 px, not {}", side));
@@ -145,7 +142,7 @@ void Validate(const SpeckleMatchingOptions& o) {
   demand(o.most_unexplained >= 0.0, "the most that is unexplained must not be negative");
   demand(o.most_off_centre > 0.0 && o.most_off_centre <= 0.5,
          "evidence may be off centre by up to half of the window's width, but not by nothing");
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 namespace {
@@ -105,10 +105,7 @@ double LargestRadius(const RayGrid& rays) {
 }  // namespace
 
 void Validate(const StereoRigOptions& o) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"stereo rig", 0, 0, std::move(message)});
-  };
+  Demands demand("stereo rig");
   demand(o.pixel_pitch_m > 0.0, fmt::format("pixel pitch {} m is not positive", o.pixel_pitch_m));
   demand(o.focal_length_m > 0.0,
          fmt::format("focal length {} m is not positive", o.focal_length_m));
@@ -124,10 +121,10 @@ void Validate(const StereoRigOptions& o) {
   demand(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
              t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
          "tolerances must not be negative");
-  if (faults.empty() && !DistortionIsInvertible(DesignedCamera(o))) {
+  if (demand.met() && !DistortionIsInvertible(DesignedCamera(o))) {
     demand(false, "the distortion folds the image over before its corners");
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 StereoCalibration DesignOf(const StereoRigOptions& options) {

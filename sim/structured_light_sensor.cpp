@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 namespace {
@@ -60,10 +60,7 @@ MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
 }  // namespace
 
 void Validate(const StructuredLightOptions& o) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"structured-light sensor", 0, 0, std::move(message)});
-  };
+  Demands demand("structured-light sensor");
   demand(o.projector_baseline_m > 0.0, "the projector's baseline must be positive");
   demand(o.disparity_step_px >= 0.0, "the disparity step must not be negative");
   demand(o.averaged_frames >= 1 && o.averaged_frames <= 1000,
@@ -84,7 +81,7 @@ void Validate(const StructuredLightOptions& o) {
                        "projector's baseline too long",
                        end_px, SpeckleMatcher::kMostDisparity_px));
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
   Validate(InfraredShutter(o));
   Validate(o.infrared);
   Validate(o.parametric);

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/atomic_file.h"
+#include "core/demands.h"
 #include "core/image_io.h"
-#include "core/input_error.h"
 
 namespace fenestra::emva {
 namespace {
@@ -80,10 +80,7 @@ std::vector<std::string> FrameNames(const std::string& set, int count) {
 }  // namespace
 
 void Validate(const SimulationOptions& o) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"EMVA series", 0, 0, std::move(message)});
-  };
+  Demands demand("EMVA series");
   demand(
       o.size.width >= 8 && o.size.width <= 16384 && o.size.height >= 8 && o.size.height <= 16384,
       fmt::format("frames of {} x {} px are not between 8 and 16384", o.size.width, o.size.height));
@@ -95,7 +92,7 @@ void Validate(const SimulationOptions& o) {
   demand(o.quantum_efficiency > 0.0 && o.quantum_efficiency <= 1.0,
          fmt::format("the sensor sees nothing at {:g} nm", o.wavelength_nm));
   demand(o.longest_exposure_s > 0.0, "the longest exposure must be positive");
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& sensor) {

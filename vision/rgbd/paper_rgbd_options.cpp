@@ -1,6 +1,6 @@
 #include "vision/rgbd/paper_rgbd_options.h"
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 namespace {
@@ -79,16 +79,10 @@ const Table& PaperRgbdParameters() {
 }
 
 void Validate(const PaperRgbdOptions& options) {
-  std::vector<InputFault> faults;
-  const Table& table = PaperRgbdParameters();
-  for (const ParameterInfo& info : table.infos()) {
-    const auto objection = info.Objection(table.Get(options, info.name));
-    if (objection) faults.push_back({"paper-rgbd", 0, 0, *objection});
-  }
-  for (const std::string& fault : FaultsOf(options.prior)) {
-    faults.push_back({"paper-rgbd", 0, 0, fault});
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  Demands demand("paper-rgbd");
+  demand.Add(PaperRgbdParameters().Objections(options));
+  demand.Add(FaultsOf(options.prior));
+  demand.ThrowUnlessMet();
 }
 
 }  // namespace fenestra

@@ -1,6 +1,6 @@
 #include "vision/stereo/edge_stereo_options.h"
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 namespace {
@@ -31,18 +31,11 @@ const Table& EdgeStereoParameters() {
 #undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, const std::string& message) {
-    if (!holds) faults.push_back({"edge-stereo", 0, 0, message});
-  };
-  const Table& table = EdgeStereoParameters();
-  for (const ParameterInfo& info : table.infos()) {
-    const auto objection = info.Objection(table.Get(options, info.name));
-    demand(!objection, objection.value_or(""));
-  }
-  for (const std::string& fault : FaultsOf(options.search)) demand(false, fault);
-  for (const std::string& fault : FaultsOf(options.prior)) demand(false, fault);
-  if (!faults.empty()) throw InputError(std::move(faults));
+  Demands demand("edge-stereo");
+  demand.Add(EdgeStereoParameters().Objections(options));
+  demand.Add(FaultsOf(options.search));
+  demand.Add(FaultsOf(options.prior));
+  demand.ThrowUnlessMet();
 }
 
 }  // namespace fenestra

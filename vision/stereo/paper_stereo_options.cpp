@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "core/input_error.h"
+#include "core/demands.h"
 
 namespace fenestra {
 namespace {
@@ -105,22 +105,15 @@ const Table& PaperStereoParameters() {
 #undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, const std::string& message) {
-    if (!holds) faults.push_back({"paper-stereo", 0, 0, message});
-  };
-  const Table& table = PaperStereoParameters();
-  for (const ParameterInfo& info : table.infos()) {
-    const auto objection = info.Objection(table.Get(options, info.name));
-    demand(!objection, objection.value_or(""));
-  }
+  Demands demand("paper-stereo");
+  demand.Add(PaperStereoParameters().Objections(options));
   demand(options.sad_window_px % 2 == 1, "sad_window_px must be odd");
   demand(options.nearest_m < options.farthest_m, "nearest_m must be less than farthest_m");
   demand(options.min_side_m < options.max_side_m, "min_side_m must be less than max_side_m");
   demand(options.canny_low_dn <= options.canny_high_dn,
          "canny_low_dn must not be more than canny_high_dn");
-  for (const std::string& fault : FaultsOf(options.prior)) demand(false, fault);
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.Add(FaultsOf(options.prior));
+  demand.ThrowUnlessMet();
 }
 
 }  // namespace fenestra

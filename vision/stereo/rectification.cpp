@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
+#include "core/demands.h"
 #include "core/input_error.h"
 
 namespace fenestra {
@@ -24,10 +25,7 @@ cv::Mat OpenCvDistortion(const CameraModel& camera) {
 }
 
 void Validate(const StereoCalibration& calibration) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](bool holds, std::string message) {
-    if (!holds) faults.push_back({"stereo calibration", 0, 0, std::move(message)});
-  };
+  Demands demand("stereo calibration");
   const CameraModel& l = calibration.left;
   const CameraModel& r = calibration.right;
   demand(l.width_px() == r.width_px() && l.height_px() == r.height_px(),
@@ -41,7 +39,7 @@ void Validate(const StereoCalibration& calibration) {
          fmt::format("the right camera must stand to the right of the left one; T is "
                      "({:g}, {:g}, {:g}) m where its x must be negative and the largest",
                      p_RL.x(), p_RL.y(), p_RL.z()));
-  if (!faults.empty()) throw InputError(std::move(faults));
+  demand.ThrowUnlessMet();
 }
 
 void CheckSize(const cv::Mat1b& image, const cv::Size& size, const char* which) {
