@@ -18,11 +18,33 @@ const cv::Scalar kColors[] = {plot_color::kBlue,         plot_color::kVermilion,
                               plot_color::kGreen,        cv::Scalar(0, 159, 230),
                               cv::Scalar(167, 121, 204), cv::Scalar(233, 180, 86)};
 
+// A boundary, in runs of neighbouring levels at which the requirement holds somewhere.
+class Boundary {
+ public:
+  void Add(cv::Point2d point) {
+    if (ended_) runs_.emplace_back();
+    ended_ = false;
+    runs_.back().push_back(point);
+  }
+  void End() { ended_ = true; }
+
+  void Draw(Plot& plot, const cv::Scalar& color, const std::string& name, int width) const {
+    if (runs_.empty()) plot.Line(std::vector<cv::Point2d>{}, color, name, width);  // Its legend.
+    for (size_t i = 0; i < runs_.size(); ++i) {
+      plot.Line(runs_[i], color, i == 0 ? name : "", width);
+      plot.Points(runs_[i], color);
+    }
+  }
+
+ private:
+  std::vector<std::vector<cv::Point2d>> runs_;
+  bool ended_ = true;
+};
+
 struct Panel {
   std::string title;
-  /// Far and near boundary by detector.
-  std::map<std::string, std::vector<cv::Point2d>> far;
-  std::map<std::string, std::vector<cv::Point2d>> near;
+  std::map<std::string, Boundary> far;  ///< By detector.
+  std::map<std::string, Boundary> near;
 };
 
 std::string FirstVariedNumber(std::span<const EnvelopeCurve> envelopes) {
@@ -60,11 +82,14 @@ std::vector<Panel> Panels(std::span<const EnvelopeCurve> envelopes, const std::s
       panel = panels.end() - 1;
     }
     auto& far = panel->far[envelope.detector];  // In the legend even where it holds nowhere.
-    if (envelope.holds.empty()) continue;
-    far.emplace_back(*x, envelope.holds.back().to);
-    if (envelope.holds.front().fails_below) {
-      panel->near[envelope.detector].emplace_back(*x, envelope.holds.front().from);
+    auto& near = panel->near[envelope.detector];
+    if (envelope.holds.empty()) {
+      far.End();
+      near.End();
+      continue;
     }
+    far.Add({*x, envelope.holds.back().to});
+    if (envelope.holds.front().fails_below) near.Add({*x, envelope.holds.front().from});
   }
   return panels;
 }
@@ -113,12 +138,11 @@ std::optional<cv::Mat3b> EnvelopePicture(const Study& study,
     const cv::Rect area(i % columns * kPanelWidth, i / columns * kPanelHeight, kPanelWidth,
                         kPanelHeight);
     Plot plot(canvas, {.area = area, .title = panel.title, .x = axes.x, .y = axes.y});
-    for (const auto& [detector, points] : panel.far) {
-      plot.Line(points, colors.at(detector), detector);
-      plot.Points(points, colors.at(detector));
+    for (const auto& [detector, boundary] : panel.far) {
+      boundary.Draw(plot, colors.at(detector), detector, 2);
     }
-    for (const auto& [detector, points] : panel.near) {
-      plot.Line(points, colors.at(detector), "", 1);
+    for (const auto& [detector, boundary] : panel.near) {
+      boundary.Draw(plot, colors.at(detector), "", 1);
     }
   }
   return canvas;
