@@ -1,29 +1,23 @@
 #include "experiments/sequence_writer.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
 #include "core/observation_files.h"
 #include "experiments/cell_bench.h"
 #include "experiments/surveyed_truth.h"
+#include "experiments/yaml_quoting.h"
 
 namespace fenestra {
 namespace {
-
-std::string Quoted(const std::string& text) {
-  YAML::Emitter emitter;
-  emitter << YAML::DoubleQuoted << text;
-  return emitter.c_str();
-}
 
 std::string FactorsYaml(const FactorValues& factors) {
   std::string text;
   for (const auto& [name, value] : factors) {
     const std::string* word = std::get_if<std::string>(&value);
     text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", name,
-                        word != nullptr ? Quoted(*word) : ToString(value));
+                        word != nullptr ? YamlQuoted(*word) : ToString(value));
   }
   return "{" + text + "}";
 }
@@ -46,7 +40,7 @@ std::string ToYaml(const Sequence& sequence) {
   std::string frames;
   for (const SequenceFrame& frame : sequence.frames) frames += FrameYaml(frame);
   return fmt::format("name: {}\ndescription: {}\nsensor: {}\nframes:\n{}", sequence.name,
-                     Quoted(sequence.description), ToString(sequence.sensor), frames);
+                     YamlQuoted(sequence.description), ToString(sequence.sensor), frames);
 }
 
 int WriteSequence(const std::filesystem::path& folder, const Study& study, SensorKind sensor) {

@@ -1,18 +1,12 @@
 #include "experiments/study_writer.h"
 
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include "experiments/versions.h"
+#include "experiments/yaml_quoting.h"
 
 namespace fenestra {
 namespace {
-
-std::string Quoted(const std::string& text) {
-  YAML::Emitter emitter;
-  emitter << YAML::DoubleQuoted << text;
-  return emitter.c_str();
-}
 
 std::string Text(const UniformDistribution& d) {
   return fmt::format("{{uniform: [{}, {}]}}", d.min, d.max);
@@ -49,7 +43,7 @@ std::string Text(const DetectorProcess& process, SensorKind sensor) {
   } else {
     std::string words;
     for (const std::string& word : process.command) {
-      words += (words.empty() ? "" : ", ") + Quoted(word);
+      words += (words.empty() ? "" : ", ") + YamlQuoted(word);
     }
     text = fmt::format("        command: [{}]\n        sensor: {}\n", words, ToString(sensor));
   }
@@ -66,7 +60,7 @@ std::string Text(const DetectorChoice& detector) {
   for (const auto& [option, value] : detector.options) {
     const std::string* word = std::get_if<std::string>(&value);
     text += fmt::format("          {}: {}\n", option,
-                        quoted && word != nullptr ? Quoted(*word) : ToString(value));
+                        quoted && word != nullptr ? YamlQuoted(*word) : ToString(value));
   }
   return text;
 }
@@ -134,7 +128,7 @@ std::string ToYaml(const std::variant<Levels, Distribution>& setting) {
 std::string ToYaml(const Study& study) {
   std::string text = fmt::format(
       "fenestra_version: {}\nname: {}\ndescription: {}\nseed: {}\nindependent_cells: {}\nparts:\n",
-      Version(), study.name, Quoted(study.description), study.seed, study.independent_cells);
+      Version(), study.name, YamlQuoted(study.description), study.seed, study.independent_cells);
   for (const StudyPart& part : study.parts) text += Text(part);
   return text;
 }

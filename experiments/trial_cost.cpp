@@ -4,6 +4,7 @@
 
 #include "core/private_folder.h"
 #include "experiments/cell_bench.h"
+#include "experiments/folder_size.h"
 #include "experiments/report.h"
 #include "experiments/run_trials.h"
 #include "experiments/store.h"
@@ -13,14 +14,6 @@
 namespace fenestra {
 namespace fs = std::filesystem;
 namespace {
-
-double BytesIn(const fs::path& folder) {
-  double bytes = 0.0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) bytes += static_cast<double>(entry.file_size());
-  }
-  return bytes;
-}
 
 // A store grows by whole pages, so a single trial would tell nothing.
 double StoredBytes(std::vector<TrialRecord> rows, const fs::path& folder) {
@@ -63,7 +56,7 @@ TrialCost MeasureCost(const Study& study, const Cell& cell, int trials,
   const FinishedTrial finished{bench, simulated, attempts};
   const PrivateFolder scratch;
   WritePictures(scratch.path() / "pictures", finished);
-  cost.picture_bytes = BytesIn(scratch.path() / "pictures");
+  cost.picture_bytes = static_cast<double>(FolderSize(scratch.path() / "pictures"));
   cost.row_bytes = StoredBytes(finished.Records(), scratch.path()) + CsvBytes(finished.Records());
   return cost;
 }

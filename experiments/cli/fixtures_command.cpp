@@ -3,17 +3,18 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 
 #include "core/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/progress.h"
+#include "experiments/cli/study_run_arguments.h"
 #include "experiments/fixtures/checksums.h"
 #include "experiments/fixtures/fixtures.h"
 #include "experiments/fixtures/staging_folder.h"
 #include "experiments/fixtures/trial_selection.h"
+#include "experiments/folder_size.h"
 #include "experiments/result_files.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
@@ -79,14 +80,6 @@ std::string Size(uint64_t bytes) {
   return mega < 1000.0 ? fmt::format("{:.0f} MB", mega) : fmt::format("{:.1f} GB", mega / 1000.0);
 }
 
-uint64_t BytesIn(const fs::path& folder) {
-  uint64_t bytes = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) bytes += entry.file_size();
-  }
-  return bytes;
-}
-
 FixtureOrder OrderOf(const FixtureArguments& arguments) {
   if (arguments.study.empty()) throw InputError("STUDY", "is missing; or give --verify DIR");
   if (arguments.out.empty() && !arguments.dry_run) {
@@ -103,10 +96,7 @@ FixtureOrder OrderOf(const FixtureArguments& arguments) {
   const bool all = std::find(names.begin(), names.end(), "all") != names.end();
   order.formats = UsefulFormats(FormatsOf(names), cells, order.trials, all);
   order.out = arguments.out;
-  order.jobs = arguments.jobs;
-  if (order.jobs == 0) {
-    order.jobs = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  }
+  order.jobs = JobsOrAll(arguments.jobs);
   return order;
 }
 
@@ -135,7 +125,7 @@ int MakeFixtures(const FixtureArguments& arguments) {
     fmt::print(stderr, "fenestra: interrupted; nothing was left in {}\n", order.out.string());
     return kFailure;
   }
-  fmt::print("{} are in {}, {}\n", what, order.out.string(), Size(BytesIn(order.out)));
+  fmt::print("{} are in {}, {}\n", what, order.out.string(), Size(FolderSize(order.out)));
   return kDone;
 }
 
@@ -179,9 +169,8 @@ void AddFixturesCommand(CLI::App& program, int& exit_code) {
       ->check(CLI::IsMember({"bundle", "tum", "euroc", "all"}))
       ->capture_default_str();
   AddPluginOption(*command, arguments->plugins);
-  command->add_option("--seed", arguments->seed, "Instead of the study's");
-  command->add_option("--jobs", arguments->jobs, "Trials at the same time; default: all processors")
-      ->check(CLI::Range(1, 1024));
+  AddSeedOption(*command, arguments->seed);
+  AddJobsOption(*command, arguments->jobs);
   command->add_flag("--dry-run", arguments->dry_run, "Show the trials and the size, write nothing");
   command->add_option("--verify", arguments->verify,
                       "Check that this folder's files are those that were written");

@@ -57,7 +57,7 @@ void AddExplain(CLI::App& study, int& exit_code) {
                    "Trials to run of each of these cells; 0: none, and no times")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();
-  AddJobsOption(*explain, arguments->run);
+  AddJobsOption(*explain, arguments->run.jobs);
   AddStudyOptions(*explain, arguments->run);
   explain->callback([arguments, &exit_code] {
     Explain(*arguments);

@@ -16,10 +16,6 @@
 namespace fenestra::cli {
 namespace {
 
-int AllProcessors() {
-  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
 void CheckSize(const Study& study) {
   if (CountTrials(study) <= kMostTrials) return;
   throw InputError("--trials", fmt::format("makes {} trials in all; at most {} are run",
@@ -29,23 +25,30 @@ void CheckSize(const Study& study) {
 }  // namespace
 
 void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments) {
-  command.add_option("--seed", arguments.seed, "Instead of the study's seed")
-      ->check(CLI::Range(uint64_t{0}, uint64_t{INT64_MAX}));
+  AddSeedOption(command, arguments.seed);
   command.add_option("--trials", arguments.trials, "Trials of each cell, instead of the study's")
       ->check(CLI::Range(1, 1000000));
   AddPluginOption(command, arguments.plugins);
 }
 
-CLI::Option* AddJobsOption(CLI::App& command, StudyRunArguments& arguments) {
-  return command
-      .add_option("--jobs", arguments.jobs, "Trials at the same time; default: all processors")
+CLI::Option* AddSeedOption(CLI::App& command, std::optional<uint64_t>& seed) {
+  return command.add_option("--seed", seed, "Instead of the study's seed")
+      ->check(CLI::Range(uint64_t{0}, uint64_t{INT64_MAX}));
+}
+
+CLI::Option* AddJobsOption(CLI::App& command, int& jobs) {
+  return command.add_option("--jobs", jobs, "Trials at the same time; default: all processors")
       ->check(CLI::Range(1, 1024));
+}
+
+int JobsOrAll(int jobs) {
+  return jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments) {
   CLI::Option* out =
       command.add_option("--out", arguments.out, "Results folder; default: results/<study>");
-  CLI::Option* jobs = AddJobsOption(command, arguments);
+  CLI::Option* jobs = AddJobsOption(command, arguments.jobs);
   AddStudyOptions(command, arguments);
   return {out, jobs, command.get_option("--seed"), command.get_option("--trials")};
 }
@@ -56,7 +59,7 @@ StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArg
   StudyRun run{.study = ReadStudy(reader, Detectors()),
                .study_text = reader.text(),
                .out = arguments.out,
-               .jobs = arguments.jobs == 0 ? AllProcessors() : arguments.jobs,
+               .jobs = JobsOrAll(arguments.jobs),
                .command = CommandLine(),
                .detectors = MakerWith(arguments.plugins)};
   if (arguments.seed) run.study.seed = *arguments.seed;

@@ -21,8 +21,12 @@ struct StudyRunArguments {
 
 /// --seed and --trials, which change the study; --plugin.
 void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments);
-/// --jobs.
-CLI::Option* AddJobsOption(CLI::App& command, StudyRunArguments& arguments);
+/// --seed alone.
+CLI::Option* AddSeedOption(CLI::App& command, std::optional<uint64_t>& seed);
+/// --jobs, which stays 0 where it is not given.
+CLI::Option* AddJobsOption(CLI::App& command, int& jobs);
+/// As many as there are processors for 0.
+int JobsOrAll(int jobs);
 /// All of these and --out. Returns all that make no sense without a run.
 std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments);
 
