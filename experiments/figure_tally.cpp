@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include <limits>
-
 #include "core/check.h"
 #include "experiments/statistics/intervals.h"
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <optional>
 #include <set>
 
 #include "experiments/detector_process_reader.h"

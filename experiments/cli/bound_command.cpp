@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 
-#include "core/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/study_catalogue.h"
