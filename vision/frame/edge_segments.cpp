@@ -4,154 +4,23 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/frame/edge_chains.h"
+
 namespace fenestra {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSobelOfStep = 3.0;  // Of a step of 1 DN that a good lens has blurred.
-// An edge of darkness 1 (4 : 1) rises by 1.2 times the grey value in its middle, weaker ones by
-// about their share of that. Half of it is asked for, as blur takes some.
-constexpr double kLeastContrast = 0.6;
-constexpr double kBend_px = 0.8;
-constexpr double kFollow_px = 1.6;  // From row to row; more than an edge at 45° moves.
-constexpr int kMissingRows = 2;
-constexpr double kObliqueness = 0.7;  // tan 35°: neighbouring kinds overlap by 20°.
 constexpr double kCollinear_px = 1.2;
 constexpr double kParallel = 0.06;
 // Of the less clear part; where it is less, the gap shows something else.
 constexpr double kJoinedDarkness = 0.6;
+// Ends of what is one edge at both scales; along it, corners round off.
+constexpr double kSameAcross_px = 1.5;
+constexpr double kSameAlong_px = 4.0;
 
 double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-struct ChainPoint {
-  double u;
-  int v;
-};
-using Chain = std::vector<ChainPoint>;
-
-// Follows upright edges down the rows.
-class ChainTracker {
- public:
-  ChainTracker(int width, const EdgeSegmentSettings& settings)
-      : threshold_(kSobelOfStep * settings.darkness.min_contrast_dn),
-        relative_threshold_(kSobelOfStep * kLeastContrast * settings.min_darkness),
-        black_dn_(settings.darkness.black_dn),
-        chain_at_{std::vector<int>(width, -1), std::vector<int>(width, -1)} {}
-
-  void AddRow(int v, const uchar* grey, const short* across, const short* along, int width) {
-    // Every pixel passes here: whole numbers, and what most pixels fail by first.
-    const int threshold = static_cast<int>(std::ceil(threshold_));
-    for (int u = 1; u + 1 < width; ++u) {
-      const int strength = std::abs(across[u]);
-      if (strength < threshold) continue;
-      const int before = std::abs(across[u - 1]);
-      const int after = std::abs(across[u + 1]);
-      if (strength < before || strength <= after) continue;
-      if (strength < kObliqueness * std::abs(along[u])) continue;
-      if (strength < relative_threshold_ * (grey[u] - black_dn_)) continue;
-      const double bend = before - 2.0 * strength + after;
-      const double offset = bend < 0.0 ? 0.5 * (before - after) / bend : 0.0;
-      Append(across[u] < 0, {u + offset, v});
-    }
-  }
-
-  // [0]: dark to the right of the edge; [1]: dark to its left.
-  const std::vector<Chain>& chains(bool dark_right) const { return chains_[dark_right ? 0 : 1]; }
-
- private:
-  void Append(bool dark_right, const ChainPoint& point) {
-    std::vector<Chain>& chains = chains_[dark_right ? 0 : 1];
-    std::vector<int>& at = chain_at_[dark_right ? 0 : 1];
-    const int u = static_cast<int>(std::lround(point.u));
-    int nearest = -1;
-    double smallest = kFollow_px;
-    for (int i = std::max(0, u - 2); i <= std::min(static_cast<int>(at.size()) - 1, u + 2); ++i) {
-      if (at[i] < 0) continue;
-      const ChainPoint& last = chains[at[i]].back();
-      const int rows = point.v - last.v;
-      const double distance = std::abs(last.u - point.u);
-      if (rows < 1 || rows > 1 + kMissingRows || distance > smallest) continue;
-      smallest = distance;
-      nearest = at[i];
-    }
-    if (nearest < 0) {
-      nearest = static_cast<int>(chains.size());
-      chains.emplace_back();
-    }
-    chains[nearest].push_back(point);
-    at[u] = nearest;
-  }
-
-  double threshold_;
-  double relative_threshold_;
-  double black_dn_;
-  std::array<std::vector<int>, 2> chain_at_;
-  std::array<std::vector<Chain>, 2> chains_;
-};
-
-// The line u = a + b v through the points [first, last], from the first row to the last.
-EdgeSegment FitLine(const Chain& chain, size_t first, size_t last) {
-  double n = 0.0, sum_v = 0.0, sum_u = 0.0;
-  for (size_t i = first; i <= last; ++i) {
-    n += 1.0;
-    sum_v += chain[i].v;
-    sum_u += chain[i].u;
-  }
-  const double mean_v = sum_v / n;
-  const double mean_u = sum_u / n;
-  double vv = 0.0, uv = 0.0;
-  for (size_t i = first; i <= last; ++i) {
-    vv += (chain[i].v - mean_v) * (chain[i].v - mean_v);
-    uv += (chain[i].v - mean_v) * (chain[i].u - mean_u);
-  }
-  const double slope = vv > 0.0 ? uv / vv : 0.0;
-  const auto at = [&](int v) { return Vector2d(mean_u + slope * (v - mean_v), v); };
-  return {at(chain[first].v), at(chain[last].v), 0.0};
-}
-
-void Split(const Chain& chain, size_t first, size_t last, double min_length_px,
-           std::vector<EdgeSegment>& out) {
-  const Vector2d p(chain[first].u, chain[first].v);
-  const Vector2d q(chain[last].u, chain[last].v);
-  const double length = (q - p).norm();
-  if (length < min_length_px) return;
-  size_t worst = first;
-  double largest = kBend_px * length;
-  for (size_t i = first + 1; i < last; ++i) {
-    const double distance = std::abs(Cross(q - p, Vector2d(chain[i].u, chain[i].v) - p));
-    if (distance <= largest) continue;
-    largest = distance;
-    worst = i;
-  }
-  if (worst == first) {
-    out.push_back(FitLine(chain, first, last));
-    return;
-  }
-  Split(chain, first, worst, min_length_px, out);
-  Split(chain, worst, last, min_length_px, out);
-}
-
-// Upright edges of an image with these derivatives, downwards: first dark to the right, then to the
-// left.
-std::array<std::vector<EdgeSegment>, 2> UprightSegments(const cv::Mat1b& image,
-                                                        const cv::Mat1s& across,
-                                                        const cv::Mat1s& along,
-                                                        const EdgeSegmentSettings& settings) {
-  ChainTracker tracker(across.cols, settings);
-  for (int v = 1; v + 1 < across.rows; ++v) {
-    tracker.AddRow(v, image.ptr(v), across.ptr<short>(v), along.ptr<short>(v), across.cols);
-  }
-  std::array<std::vector<EdgeSegment>, 2> segments;
-  for (size_t i = 0; i < 2; ++i) {
-    for (const Chain& chain : tracker.chains(i == 0)) {
-      if (static_cast<double>(chain.size()) < 0.7 * settings.min_length_px) continue;
-      Split(chain, 0, chain.size() - 1, settings.min_length_px, segments[i]);
-    }
-  }
-  return segments;
 }
 
 double Weight(const EdgeSegment& s) {
@@ -198,44 +67,66 @@ std::vector<EdgeSegment> Joined(const cv::Mat1b& image, const std::vector<EdgeSe
   return joined;
 }
 
-// Keeps the clear ones and adds joined ones.
-void Finish(const cv::Mat1b& image, const EdgeSegmentSettings& settings,
-            std::vector<EdgeSegment>& segments) {
+// Edges of a picture of half the size, in pixels of the whole one, whose pixel u covers the half
+// one's 0.5 u - 0.25.
+EdgeSegments FollowCoarseEdges(const cv::Mat1b& image, const EdgeSegmentSettings& settings) {
+  const cv::Size size(image.cols / 2, image.rows / 2);
+  if (size.empty()) return {};
+  cv::Mat1b half;
+  cv::resize(image(cv::Rect(cv::Point(), size * 2)), half, size, 0.0, 0.0, cv::INTER_AREA);
+  EdgeSegments all = FollowEdges(half, settings);
+  const auto whole = [](const Vector2d& p) { return Vector2d(2.0 * p + Vector2d(0.5, 0.5)); };
+  for (std::vector<EdgeSegment>& segments : all) {
+    for (EdgeSegment& s : segments) s = {whole(s.from), whole(s.to), s.darkness};
+  }
+  return all;
+}
+
+// Rates them and keeps the clear ones, the best first.
+void KeepClear(const cv::Mat1b& image, const EdgeSegmentSettings& settings, size_t most,
+               std::vector<EdgeSegment>& segments) {
   for (EdgeSegment& s : segments) {
     s.darkness = DarkOnTheRight(image, s.from, s.to, settings.darkness);
   }
   std::erase_if(segments, [&](const EdgeSegment& s) { return s.darkness < settings.min_darkness; });
-  const auto most = static_cast<size_t>(settings.most_per_side);
   KeepBest(most, segments);
-  std::vector<EdgeSegment> joined = Joined(image, segments, settings.darkness);
-  KeepBest(most / 4, joined);
-  segments.insert(segments.end(), joined.begin(), joined.end());
 }
 
-EdgeSegment Reversed(const EdgeSegment& s) {
-  return {s.to, s.from, s.darkness};
+bool IsSame(const EdgeSegment& a, const EdgeSegment& b) {
+  const Vector2d along = (a.to - a.from).normalized();
+  const Vector2d off_from = b.from - a.from;
+  const Vector2d off_to = b.to - a.to;
+  return std::abs(along.dot(off_from)) < kSameAlong_px &&
+         std::abs(along.dot(off_to)) < kSameAlong_px &&
+         std::abs(Cross(along, off_from)) < kSameAcross_px &&
+         std::abs(Cross(along, off_to)) < kSameAcross_px;
 }
 
-EdgeSegment Transposed(const EdgeSegment& s) {
-  return {{s.from.y(), s.from.x()}, {s.to.y(), s.to.x()}, s.darkness};
+void AddNew(const std::vector<EdgeSegment>& more, std::vector<EdgeSegment>& segments) {
+  const size_t known = segments.size();
+  for (const EdgeSegment& s : more) {
+    const auto end = segments.begin() + static_cast<std::ptrdiff_t>(known);
+    const bool is_known = std::any_of(segments.begin(), end,
+                                      [&](const EdgeSegment& other) { return IsSame(other, s); });
+    if (!is_known) segments.push_back(s);
+  }
 }
 
 }  // namespace
 
 EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings& settings) {
-  cv::Mat1s du;
-  cv::Mat1s dv;
-  cv::spatialGradient(image, du, dv, 3, cv::BORDER_REPLICATE);
-  const auto upright = UprightSegments(image, du, dv, settings);
-  const cv::Mat1s du_transposed = du.t();
-  const cv::Mat1s dv_transposed = dv.t();
-  const auto level = UprightSegments(image.t(), dv_transposed, du_transposed, settings);
-  EdgeSegments all;
-  for (const EdgeSegment& s : level[0]) all[0].push_back(Transposed(s));
-  for (const EdgeSegment& s : upright[1]) all[1].push_back(s);
-  for (const EdgeSegment& s : level[1]) all[2].push_back(Reversed(Transposed(s)));
-  for (const EdgeSegment& s : upright[0]) all[3].push_back(Reversed(s));
-  for (std::vector<EdgeSegment>& segments : all) Finish(image, settings, segments);
+  const auto most = static_cast<size_t>(settings.most_per_side);
+  EdgeSegments all = FollowEdges(image, settings);
+  EdgeSegments coarse = FollowCoarseEdges(image, settings);
+  for (size_t side = 0; side < all.size(); ++side) {
+    std::vector<EdgeSegment>& segments = all[side];
+    KeepClear(image, settings, most, segments);
+    std::vector<EdgeSegment> joined = Joined(image, segments, settings.darkness);
+    KeepBest(most / 4, joined);
+    segments.insert(segments.end(), joined.begin(), joined.end());
+    KeepClear(image, settings, most / 4, coarse[side]);
+    AddNew(coarse[side], segments);
+  }
   return all;
 }
 

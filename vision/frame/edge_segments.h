@@ -35,10 +35,11 @@ struct EdgeSegmentSettings {
 /// a left one dark on its right. An edge at 45° may be listed with both neighbours.
 using EdgeSegments = std::array<std::vector<EdgeSegment>, 4>;
 
-/// Maxima of Sobel's derivative, found with sub-pixel resolution along rows (upright edges) or
-/// columns (level ones), followed from one to the next and split where they bend (Ramer, Douglas
-/// and Peucker; 0.8 px). Pieces of one line are listed both apart and joined across gaps, as what
-/// stands before a frame cuts its sides; a joined one must be as clear in the gap.
+/// Straight edges (edge_chains.h) that are clear enough. Pieces of one line are listed both apart
+/// and joined across gaps, as what stands before a frame cuts its sides; a joined one must be as
+/// clear in the gap. A picture of half the size adds what is straight only there: where a frame
+/// stands back, its edge and the wall's beside it are a pixel or two apart, and the stronger of
+/// both is now one and now the other.
 EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings& settings);
 
 /// The points where two lines meet, each given by two points; far away if they are parallel.
