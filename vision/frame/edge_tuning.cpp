@@ -131,27 +131,28 @@ class SharedEquations {
                Evenness& evenness) {
     Matrix3d own = model_.PriorInformation(strip);
     Vector3d own_gradient = Vector3d::Zero();
-    Eigen::Matrix<double, 3, EdgeTuning::kShared> mixed;
-    mixed.setZero();
-    SharedMatrix information = SharedMatrix::Zero();
-    Shared gradient = Shared::Zero();
+    Matrix3d mixed = Matrix3d::Zero();
+    Matrix3d shape = Matrix3d::Zero();
+    Vector3d shape_gradient = Vector3d::Zero();
     for (const StripPixel& pixel : strip.pixels) {
       const StepValue value = model_.At(fit, strip.share, pixel);
       if (!value.counts) continue;
       const double residual = pixel.grey_dn - value.grey_dn;
       own.noalias() += value.weight * value.by_own * value.by_own.transpose();
-      const Shared by_shared = model_.LineariseShared(fit, strip.share, pixel);
       own_gradient += value.weight * residual * value.by_own;
-      mixed.noalias() += value.weight * value.by_own * by_shared.transpose();
-      information.noalias() += value.weight * by_shared * by_shared.transpose();
-      gradient += value.weight * residual * by_shared;
+      mixed.noalias() += value.weight * value.by_own * value.by_shape.transpose();
+      shape.noalias() += value.weight * value.by_shape * value.by_shape.transpose();
+      shape_gradient += value.weight * residual * value.by_shape;
       variances.Add(value, residual);
       evenness.Add(pixel, value.weight * residual * residual);
     }
+    const SharedByShape shared = StepModel::LineariseShared(fit, strip.share);
     const Matrix3d inverse = own.inverse();
-    const Eigen::Matrix<double, 3, EdgeTuning::kShared> own_by_shared = inverse * mixed;
-    information_ += (information - mixed.transpose() * own_by_shared) / excess;
-    gradient_ += (gradient - own_by_shared.transpose() * own_gradient) / excess;
+    const Eigen::Matrix<double, 3, EdgeTuning::kShared> own_by_shared =
+        inverse * mixed * shared.transpose();
+    information_ +=
+        shared * (shape - mixed.transpose() * inverse * mixed) * shared.transpose() / excess;
+    gradient_ += (shared * shape_gradient - own_by_shared.transpose() * own_gradient) / excess;
     edge_by_shared_ -= own_by_shared.row(2).transpose();
     ++count_;
     return inverse;

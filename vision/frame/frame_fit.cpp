@@ -158,9 +158,11 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
   if (border_) {
     if (!HasInnerSides(*fit) || !IsConsistent(*fit)) return std::nullopt;
     // Nor may they be better explained by another one.
-    const auto freed = Round(fit->adjustment.frame, kFree, kPlaneTolerances_px.back());
-    if (freed && std::abs(freed->adjustment.frame.inner_relief_m) >
-                     kSignificant * std::sqrt(freed->adjustment.covariance(13, 13))) {
+    FrameKnowledge free = kFree;
+    free.planes = settings_.planes;
+    const auto freed = AdjustFrame(views_, fit->points, fit->adjustment.frame, free);
+    if (freed && std::abs(freed->frame.inner_relief_m) >
+                     kSignificant * std::sqrt(freed->covariance(13, 13))) {
       return std::nullopt;
     }
   }

@@ -17,6 +17,10 @@ double Along(double share) {
   return 2.0 * share - 1.0;
 }
 
+double Bend(double tau) {
+  return tau * tau - 1.0 / 3.0;
+}
+
 double Sign(const SideRequest& request) {
   return request.brighter == Brighter::kOutside ? 1.0 : -1.0;
 }
@@ -31,13 +35,12 @@ StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixe
   const double x = pixel.s_px - fit.s0_px;
   const BlurredStep::Value at = step_.At(x);
   const double tau = Along(share);
-  const double bend = tau * tau - 1.0 / 3.0;
-  const double inside = x - at.ramp;  // -R(-x), as R(x) - R(-x) = x.
-  const double shape =
-      at.p + (tuning_.blur_change_px() * tau + tuning_.blur_bend_px() * bend) * at.by_sigma +
-      tuning_.slope_outside() * at.ramp + tuning_.slope_inside() * inside;
   StepValue value;
   value.p = at.p;
+  value.by_shape = {at.by_sigma, at.ramp, x - at.ramp};  // As R(x) - R(-x) = x.
+  const double shape =
+      at.p + (tuning_.blur_change_px() * tau + tuning_.blur_bend_px() * Bend(tau)) * at.by_sigma +
+      tuning_.slope_outside() * at.ramp + tuning_.slope_inside() * (x - at.ramp);
   value.grey_dn = fit.base_dn + fit.rise_dn * shape;
   value.by_own = {1.0, shape, -fit.rise_dn * at.by_s};
   const double bright_share = request_.brighter == Brighter::kOutside ? at.p : 1.0 - at.p;
@@ -47,14 +50,13 @@ StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixe
   return value;
 }
 
-BySharedTuning StepModel::LineariseShared(const StepFit& fit, double share,
-                                          const StripPixel& pixel) const {
-  const double x = pixel.s_px - fit.s0_px;
-  const BlurredStep::Value at = step_.At(x);
+SharedByShape StepModel::LineariseShared(const StepFit& fit, double share) {
   const double tau = Along(share);
-  const double bend = tau * tau - 1.0 / 3.0;
-  return fit.rise_dn *
-         BySharedTuning{at.by_sigma, tau * at.by_sigma, bend * at.by_sigma, at.ramp, x - at.ramp};
+  SharedByShape by_shape = SharedByShape::Zero();
+  by_shape.col(0).head<3>() = Vector3d(1.0, tau, Bend(tau));
+  by_shape(3, 1) = 1.0;
+  by_shape(4, 2) = 1.0;
+  return fit.rise_dn * by_shape;
 }
 
 std::optional<StepFit> StepModel::Start(const EdgeStrip& strip) const {

@@ -28,11 +28,13 @@ struct StepFit {
 struct StepValue {
   double p;  ///< Share of the outer grey value.
   double grey_dn;
-  Eigen::Vector3d by_own;  ///< a, g, s0.
+  Eigen::Vector3d by_own;    ///< a, g, s0.
+  Eigen::Vector3d by_shape;  ///< g's factors: dP/dσ, R(s - s0), -R(s0 - s).
   double weight;
   bool counts;
 };
 using BySharedTuning = Eigen::Matrix<double, EdgeTuning::kShared, 1>;
+using SharedByShape = Eigen::Matrix<double, EdgeTuning::kShared, 3>;
 
 /// Spread of the steps along one side, as a share of them.
 inline constexpr double kRiseSpread = 0.03;
@@ -42,8 +44,8 @@ class StepModel {
   StepModel(const SideRequest& request, const EdgeTuning& tuning, const Eigen::Vector2d& normal);
 
   StepValue At(const StepFit& fit, double share, const StripPixel& pixel) const;
-  /// Its derivative by what all strips of the side share.
-  BySharedTuning LineariseShared(const StepFit& fit, double share, const StripPixel& pixel) const;
+  /// What all strips of the side share moves their greys by these combinations of `by_shape`.
+  static SharedByShape LineariseShared(const StepFit& fit, double share);
   /// nullopt where there is no such edge within 0.7 of the reach.
   std::optional<StepFit> Fit(const EdgeStrip& strip) const;
   /// Information on a strip's own unknowns from the rest of the side.
