@@ -21,15 +21,23 @@ double DistanceOutside(const Quadrilateral& q, const std::array<Vector2d, 4>& ou
   return most;
 }
 
-// Pixels of a camera in the origin that are `clear_px` inside of the border's edges.
-double BorderPixels(const FrameRectangle& frame, double f_px, double clear_px) {
+// Pixels of a camera in the origin that look at a frame's front.
+struct PixelCounts {
+  double border;  // `clear_px` inside of the border's edges.
+  double inside;  // The same in the opening.
+};
+PixelCounts CountPixels(const FrameRectangle& frame, double f_px, double clear_px) {
   const double distance_m = frame.p_LO.norm();
   const double cosine = std::abs(frame.R_LO.col(2).dot(frame.p_LO)) / distance_m;
   const double pixels_per_m = f_px / distance_m;
   const double clear_m = clear_px / (pixels_per_m * std::max(0.2, cosine));
   const double width_m = std::max(0.0, frame.border_m - 2.0 * clear_m);
   const double length_m = 2.0 * (frame.width_m + frame.height_m) - 4.0 * frame.border_m;
-  return width_m * length_m * cosine * pixels_per_m * pixels_per_m;
+  const double off_m = 2.0 * (frame.border_m + clear_m);
+  const double opening_m2 =
+      std::max(0.0, frame.width_m - off_m) * std::max(0.0, frame.height_m - off_m);
+  const double pixels_per_m2 = cosine * pixels_per_m * pixels_per_m;
+  return {width_m * length_m * pixels_per_m2, opening_m2 * pixels_per_m2};
 }
 
 }  // namespace
@@ -90,7 +98,9 @@ FrameDepth DepthOf(const std::vector<DepthPoint>& points, const FrameRectangle& 
   const Vector2d outer = 0.5 * Vector2d(frame.width_m, frame.height_m);
   const double reach_m = reach.wall * 2.0 * outer.maxCoeff();
   FrameDepth found;
-  found.border_pixels = reach.read * BorderPixels(frame, f_px, reach.clear_px);
+  const PixelCounts pixels = CountPixels(frame, f_px, reach.clear_px);
+  found.border_pixels = reach.read * pixels.border;
+  found.inside_pixels = reach.read * pixels.inside;
   for (const DepthPoint& point : points) {
     const double depth_m = q / normal.dot(point.ray_D);
     if (!(depth_m > 0.0)) continue;

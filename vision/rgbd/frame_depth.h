@@ -35,6 +35,7 @@ struct FrameDepth {
   std::vector<DepthPoint> border;  ///< On the frame's front, between its edges.
   std::vector<DepthPoint> inside;  ///< In its opening.
   double border_pixels = 0.0;      ///< Rays that meet the front between its edges, returns or not.
+  double inside_pixels = 0.0;      ///< The same in its opening.
 };
 
 struct DepthReach {

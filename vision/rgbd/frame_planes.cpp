@@ -18,11 +18,13 @@ constexpr double kWallReach = 1.5;  // Of the frame's longer side, on each side 
 constexpr double kFree_m = 1.0;     // Standard deviation of an offset that is not known.
 constexpr double kOtherwise = 4.0;
 constexpr double kOtherwise_m = 0.015;
-// What is so far behind the front is no part of a frame.
-constexpr double kBehind_m = 0.15;
-constexpr double kBehindSigmas = 6.0;
-constexpr int kLeastBehind = 15;
+// What is so far behind the front or before it is no part of a frame.
+constexpr double kOff_m = 0.15;
+constexpr double kOffSigmas = 6.0;
+constexpr int kLeastOff = 15;
 constexpr double kLeastOpen = 0.3;  // Of the pixels between the edges.
+// Of the pixels within the frame's edges. Something may stand before it that hides a part.
+constexpr double kLeastBefore = 0.6;
 // Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
 constexpr double kLeastReturns = 0.6;
 constexpr double kInlier = 3.5;
@@ -84,15 +86,27 @@ bool AreInPlane(const std::vector<DepthPoint>& points, const DepthPlane& wall,
   return std::abs(offset->setback_m) < kInlier * std::hypot(offset->sigma_m, of_wall_m);
 }
 
+double OffLimit(const DepthPoint& point, const DepthPlane& wall) {
+  return std::max(kOff_m, kOffSigmas * wall.sigma / std::pow(point.inverse_depth, 2));
+}
+
 bool IsOpen(const FrameDepth& depth, const DepthPlane& wall, double setback_m) {
-  int behind = 0;
-  for (const DepthPoint& point : depth.border) {
-    const double z_m = 1.0 / point.inverse_depth;
-    const double limit_m = std::max(kBehind_m, kBehindSigmas * wall.sigma * z_m * z_m);
-    if (-wall.Distance(point) - setback_m > limit_m) ++behind;
+  const auto behind =
+      std::count_if(depth.border.begin(), depth.border.end(), [&](const DepthPoint& point) {
+        return -wall.Distance(point) - setback_m > OffLimit(point, wall);
+      });
+  return behind >= kLeastOff && 2 * behind > static_cast<int>(depth.border.size()) &&
+         static_cast<double>(behind) > kLeastOpen * depth.border_pixels;
+}
+
+bool StandsBefore(const FrameDepth& depth, const DepthPlane& wall) {
+  int before = 0;
+  for (const auto* points : {&depth.border, &depth.inside}) {
+    before += static_cast<int>(std::count_if(
+        points->begin(), points->end(),
+        [&](const DepthPoint& point) { return wall.Distance(point) > OffLimit(point, wall); }));
   }
-  return behind >= kLeastBehind && 2 * behind > static_cast<int>(depth.border.size()) &&
-         behind > kLeastOpen * depth.border_pixels;
+  return before >= kLeastOff && before > kLeastBefore * (depth.border_pixels + depth.inside_pixels);
 }
 
 }  // namespace
@@ -123,6 +137,9 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
   const std::vector<DepthPoint>& front = found.points.border;
   if (IsOpen(found.points, found.wall, settings.setback_m)) {
     return Miss{"open_border", "what is seen between the frame's edges is far behind them"};
+  }
+  if (StandsBefore(found.points, found.wall)) {
+    return Miss{"stands_before", "what is seen within the frame's edges is far before the wall"};
   }
   double sigma_m = settings.setback_sigma_m;
   const bool is_seen =

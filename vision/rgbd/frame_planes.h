@@ -32,7 +32,9 @@ struct FramePlanes {
 /// counts as wall if it is in its plane, as where a frame is painted on it.
 ///
 /// Miss: "no_depth" if there is too little of the wall; "open_border" if most of what is seen
-/// between the edges of the frame is far behind it, as through the pane of a bright frame.
+/// between the edges of the frame is far behind it, as through the pane of a bright frame;
+/// "stands_before" if most of what is within its edges is far before the plane, as something dark
+/// is that lies on a desk.
 ///
 /// `frame`: right to a pixel or so, with a border. `wall`: a first guess.
 std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>& points,

@@ -109,12 +109,12 @@ PlaneRgbdOptions AnyDepth() {
   return options;
 }
 
-// The only dark quadrilateral is the monitor's screen; but the plane around it is the floor's or
-// the desk's, on which it would be no rectangle: it hangs in no wall.
-TEST(RecordedFrameTest, AMonitorBeforeARoomHangsInNoWall) {
+// The dark quadrilaterals are the monitor's screen and a book. The plane around them is the floor's
+// or the desk's: on it the screen would be no rectangle, and the book lies before it.
+TEST(RecordedFrameTest, AMonitorAndABookBeforeARoomAreInNoWall) {
   const Detection detection = DetectIn<PlaneRgbdDetector>(kDesk, AnyDepth());
   ASSERT_TRUE(std::holds_alternative<Miss>(detection));
-  EXPECT_EQ(std::get<Miss>(detection).reason, "not_a_rectangle");
+  EXPECT_EQ(std::get<Miss>(detection).reason, "stands_before");
 }
 
 TEST(RecordedFrameTest, NeitherACutPictureFrameNorACarpetIsAWindow) {
