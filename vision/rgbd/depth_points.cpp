@@ -7,6 +7,16 @@ namespace {
 
 constexpr int kMostColumns = 400;
 
+// Every so many columns, so chosen that a mirrored image is read at the mirrored ones.
+std::vector<int> MirroredColumns(int width_px, int every) {
+  std::vector<int> columns;
+  for (int u = every / 2; 2 * u + 1 < width_px; u += every) columns.push_back(u);
+  const size_t half = columns.size();
+  if (every == 1 && width_px % 2 == 1) columns.push_back(width_px / 2);
+  for (size_t i = half; i-- > 0;) columns.push_back(width_px - 1 - columns[i]);
+  return columns;
+}
+
 }  // namespace
 
 DepthPointReader::DepthPointReader(const RgbdCalibration& calibration)
@@ -14,8 +24,9 @@ DepthPointReader::DepthPointReader(const RgbdCalibration& calibration)
       color_(calibration.color.parameters()),
       columns_((calibration.depth.width_px() + kMostColumns - 1) / kMostColumns),
       rows_(2 * columns_) {
+  const std::vector<int> read = MirroredColumns(calibration.depth.width_px(), columns_);
   for (int v = rows_ / 2; v < calibration.depth.height_px(); v += rows_) {
-    for (int u = columns_ / 2; u < calibration.depth.width_px(); u += columns_) {
+    for (const int u : read) {
       const auto ray_D = calibration.depth.UnprojectRay({u, v});
       if (!ray_D) continue;
       rays_.push_back({{u, v}, *ray_D, calibration.X_KD.rotation() * *ray_D});

@@ -5,17 +5,22 @@
 namespace fenestra {
 namespace {
 
-// Of the points around a quadrilateral; one in two is enough to find their plane.
-constexpr size_t kEvery = 2;
 constexpr int kLeastPoints = 40;
 constexpr double kLeastShare = 0.4;  // Of them, on the plane.
 constexpr uint64_t kTriples = 1;     // The same samples for every image.
 
-std::vector<DepthPoint> Sparse(const std::vector<DepthPoint>& points) {
-  std::vector<DepthPoint> sparse;
-  sparse.reserve(points.size() / kEvery + 1);
-  for (size_t i = 0; i < points.size(); i += kEvery) sparse.push_back(points[i]);
-  return sparse;
+// Of the points around a quadrilateral one in two is enough to find their plane.
+std::vector<DepthPoint> EverySecondRow(const std::vector<DepthPoint>& points) {
+  std::vector<DepthPoint> rows;
+  rows.reserve(points.size());
+  int row = -1;
+  bool keep = false;
+  for (const DepthPoint& point : points) {
+    if (point.pixel.y != row) keep = !keep;
+    row = point.pixel.y;
+    if (keep) rows.push_back(point);
+  }
+  return rows;
 }
 
 }  // namespace
@@ -23,7 +28,7 @@ std::vector<DepthPoint> Sparse(const std::vector<DepthPoint>& points) {
 PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
                           const std::vector<DepthPoint>& points, const CameraModel& color,
                           const Pose& X_KD, const PlaneSeedSettings& settings) {
-  const std::vector<DepthPoint> sparse = Sparse(points);
+  const std::vector<DepthPoint> sparse = EverySecondRow(points);
   PlaneSeeds found;
   for (const DarkQuadrilateral& candidate : candidates) {
     const auto around = PointsAround(sparse, candidate.corners_px, settings.clear_px);
