@@ -106,13 +106,14 @@ std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
           if (!IsConvex(q)) continue;
           const double clarity = Clarity(image, q, settings, min_darkness);
           if (clarity <= 0.0 || !IsDarkThroughout(image, q, settings)) continue;
-          found.push_back({q, clarity});
+          const double length_px =
+              (lefts[l].Length() + rights[r].Length()) + (tops[t].Length() + bottoms[b].Length());
+          found.push_back({q, clarity, length_px});
         }
       }
     }
   }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const auto& a, const auto& b) { return a.clarity > b.clarity; });
+  std::stable_sort(found.begin(), found.end(), IsClearer<DarkQuadrilateral>);
   std::vector<DarkQuadrilateral> kept;
   for (const DarkQuadrilateral& candidate : found) {
     if (kept.size() == most) break;

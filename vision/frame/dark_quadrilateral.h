@@ -14,7 +14,15 @@ struct DarkQuadrilateral {
   Quadrilateral corners_px;
   /// How clearly it stands out: mean over the sides of DarkInside, 0 to 1.
   double clarity = 0.0;
+  double length_px = 0.0;  ///< Of the four edges together.
 };
+
+/// Which of two comes first: the clearer one, of equally clear ones (where all edges are as clear
+/// as they can be) that with the longer edges. So a mirrored image has the same order.
+template <typename Dark>
+bool IsClearer(const Dark& a, const Dark& b) {
+  return a.clarity != b.clarity ? a.clarity > b.clarity : a.length_px > b.length_px;
+}
 
 /// Convex quadrilaterals whose four sides are edges that reach near to their corners and are each
 /// at least so dark on their inside, and IsDarkThroughout; the clearest first; of those that are

@@ -35,6 +35,20 @@ double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetti
          (1.0 + tangent.squaredNorm());
 }
 
+// What lens and light are like in the middle of a side: of two strips where their number is even, so
+// that it does not matter which end they are counted from.
+struct Middle {
+  Eigen::Vector2d normal;
+  double falloff;
+};
+Middle MiddleOf(const CameraModel& camera, const std::vector<EdgeStrip>& strips,
+                const Vignetting& vignetting) {
+  const EdgeStrip& a = strips[(strips.size() - 1) / 2];
+  const EdgeStrip& b = strips[strips.size() / 2];
+  return {.normal = (a.normal + b.normal).normalized(),
+          .falloff = 0.5 * (Falloff(camera, a, vignetting) + Falloff(camera, b, vignetting))};
+}
+
 // Strips with an edge, and their edges.
 struct Fitted {
   std::vector<EdgeStrip> strips;
@@ -73,13 +87,12 @@ SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const
   EdgeStrips cut = CutStrips(view, frame, request);
   edges.places = cut.places;
   if (cut.strips.empty()) return edges;
-  const EdgeStrip& middle = cut.strips[cut.strips.size() / 2];
+  const Middle middle = MiddleOf(view.camera, cut.strips, request.vignetting);
   const StepModel model(request, tuning, middle.normal);
-  const double falloff = Falloff(view.camera, middle, request.vignetting);
   const Fitted fitted = FitAll(model, std::move(cut.strips));
   if (fitted.fits.empty()) return edges;
   const Learnt learnt =
-      Learn(model, fitted.strips, fitted.fits, {.excess = fitted.median_square, .falloff = falloff},
+      Learn(model, fitted.strips, fitted.fits, {.excess = fitted.median_square, .falloff = middle.falloff},
             request, tuning);
   if (!learnt.tuning.is_even && request.far_px > request.reach_px) {
     EdgeTuning uneven = tuning;

@@ -11,6 +11,34 @@ constexpr double kEndShare = 0.1;
 // From the outer edge, so that its blur is not taken for the border's end.
 constexpr double kClear_px = 2.0;
 
+// The size of a pixel on the frame, where it is seen most obliquely; mean of the views.
+double PixelOn(std::span<const CameraView> views, const FrameRectangle& frame) {
+  double sum_m = 0.0;
+  for (const CameraView& view : views) {
+    const Eigen::Vector3d p_CO = view.X_CL * frame.p_LO;
+    const Eigen::Vector3d normal_C = view.X_CL.rotation() * frame.R_LO.col(2);
+    const double distance_m = p_CO.norm();
+    const double cosine = std::max(0.3, std::abs(normal_C.dot(p_CO)) / distance_m);
+    sum_m += distance_m / (view.camera.parameters().fx_px * cosine);
+  }
+  return sum_m / static_cast<double>(views.size());
+}
+
+// Of the views that see it.
+std::optional<double> MeanOfViews(std::span<const CameraView> views, const FrameRectangle& frame,
+                                  Side side) {
+  double sum = 0.0;
+  int count = 0;
+  for (const CameraView& view : views) {
+    const auto mean = MeanAlong(view, frame, side);
+    if (!mean) continue;
+    sum += *mean;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
 }  // namespace
 
 std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& frame, Side side) {
@@ -30,12 +58,9 @@ std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& fr
   return sum / count;
 }
 
-std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectangle& frame,
-                                      const BorderSearch& search) {
-  // The size of a pixel on the frame, where it is seen most obliquely.
-  const double distance_m = frame.p_LO.norm();
-  const double cosine = std::max(0.3, std::abs(frame.R_LO.col(2).dot(frame.p_LO)) / distance_m);
-  const double pixel_m = distance_m / (view.camera.parameters().fx_px * cosine);
+std::optional<BorderFound> FindBorder(std::span<const CameraView> views,
+                                      const FrameRectangle& frame, const BorderSearch& search) {
+  const double pixel_m = PixelOn(views, frame);
   const double step_m = 0.5 * pixel_m;
   const double first_m = std::max(search.smallest_m, kClear_px * pixel_m);
   const double last_m = search.largest_share * std::min(frame.width_m, frame.height_m);
@@ -46,7 +71,7 @@ std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectang
   for (int i = 0; i < count; ++i) {
     inset.border_m = first_m + i * step_m;
     for (const Side side : kAllSides) {
-      profiles[static_cast<size_t>(side)].push_back(MeanAlong(view, inset, side));
+      profiles[static_cast<size_t>(side)].push_back(MeanOfViews(views, inset, side));
     }
   }
   std::optional<BorderFound> best;

@@ -2,6 +2,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 
 #include "vision/frame/edge_points.h"
 
@@ -23,10 +24,10 @@ struct BorderFound {
 std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& frame, Side side);
 
 /// Where the frame ends and the opening begins: the inset at which the grey values, averaged along
-/// each side, change most, as summed over the four sides. nullopt where they hardly change, as
-/// in front of a dark room. Right to a pixel.
-std::optional<BorderFound> FindBorder(const CameraView& view, const FrameRectangle& frame,
-                                      const BorderSearch& search);
+/// each side and over the views, change most, as summed over the four sides. nullopt where they
+/// hardly change, as in front of a dark room. Right to a pixel.
+std::optional<BorderFound> FindBorder(std::span<const CameraView> views,
+                                      const FrameRectangle& frame, const BorderSearch& search);
 
 /// Whether the surroundings of the left or the right side are brighter nearby than farther away, as
 /// beside the opening of a bright frame: 0 up to 1.4 times, 1 from 2 times on, in proportion to the

@@ -201,7 +201,7 @@ std::optional<FrameFit> FrameFitter::FitInRelief(const FrameFit& start) {
 
 std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
   FrameFit start = rough;
-  border_ = FindBorder(views_[0], start.adjustment.frame, settings_.border);
+  border_ = FindBorder(views_, start.adjustment.frame, settings_.border);
   if (border_) start.adjustment.frame.border_m = border_->border_m;
   std::optional<FrameFit> fit = FitInOnePlane(start);
   if (!fit && border_) {

@@ -203,7 +203,7 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
   const CameraView& view = sight.view;
   FrameFit rough = candidate.rough;
   FrameRectangle& frame = rough.adjustment.frame;
-  const auto border = FindBorder(view, frame, fitting_.border);
+  const auto border = FindBorder({&view, 1}, frame, fitting_.border);
   frame.border_m = border ? border->border_m : GuessedBorder(frame);
   auto measured = MeasureFramePlanes(sight.points, frame, candidate.seed.wall, calibration_.depth,
                                      {.noise = noise_,

@@ -14,32 +14,88 @@ constexpr double kLeastClarity = 0.3;  // Of that in the left image.
 // Of the depth: corners that are so near are the same.
 constexpr double kSame = 0.012;
 
-// Disparities of a side's upper and lower end.
-struct SideDisparity {
-  double upper_px;
-  double lower_px;
-};
+// Level sides have the same rows in both views, as far as each knows them.
+constexpr double kSameRow_px = 1.5;
+constexpr double kLeastCommonColumns = 0.25;  // Of a level side.
 
 double ColumnAt(const EdgeSegment& s, double v) {
   return s.from.x() + (v - s.from.y()) / (s.to.y() - s.from.y()) * (s.to.x() - s.from.x());
 }
 
-std::vector<SideDisparity> Matches(const Vector2d& upper, const Vector2d& lower,
-                                   const std::vector<EdgeSegment>& candidates, double smallest_px,
-                                   double largest_px) {
-  std::vector<SideDisparity> matches;
+double RowAt(const EdgeSegment& s, double u) {
+  return s.from.y() + (u - s.from.x()) / (s.to.x() - s.from.x()) * (s.to.y() - s.from.y());
+}
+
+struct DisparityRange {
+  double smallest_px;
+  double largest_px;
+};
+
+std::vector<const EdgeSegment*> UprightMatches(const Vector2d& upper, const Vector2d& lower,
+                                               const std::vector<EdgeSegment>& candidates,
+                                               const DisparityRange& range) {
+  std::vector<const EdgeSegment*> matches;
   for (const EdgeSegment& s : candidates) {
     const double first = std::min(s.from.y(), s.to.y());
     const double last = std::max(s.from.y(), s.to.y());
     const double common = std::min(last, lower.y()) - std::max(first, upper.y());
     if (common < kLeastCommonRows * std::min(last - first, lower.y() - upper.y())) continue;
     if (common < 0.25 * (lower.y() - upper.y())) continue;
-    const SideDisparity d{upper.x() - ColumnAt(s, upper.y()), lower.x() - ColumnAt(s, lower.y())};
-    if (std::min(d.upper_px, d.lower_px) < smallest_px) continue;
-    if (std::max(d.upper_px, d.lower_px) > largest_px) continue;
-    matches.push_back(d);
+    const double upper_px = upper.x() - ColumnAt(s, upper.y());
+    const double lower_px = lower.x() - ColumnAt(s, lower.y());
+    if (std::min(upper_px, lower_px) < range.smallest_px) continue;
+    if (std::max(upper_px, lower_px) > range.largest_px) continue;
+    matches.push_back(&s);
   }
   return matches;
+}
+
+// nullptr alone if there is none.
+std::vector<const EdgeSegment*> LevelMatches(const Vector2d& left, const Vector2d& right,
+                                             const std::vector<EdgeSegment>& candidates) {
+  std::vector<const EdgeSegment*> matches;
+  for (const EdgeSegment& s : candidates) {
+    const double first = std::min(s.from.x(), s.to.x());
+    const double last = std::max(s.from.x(), s.to.x());
+    const double common = std::min(last, right.x()) - std::max(first, left.x());
+    if (common < kLeastCommonColumns * (right.x() - left.x())) continue;
+    if (std::abs(RowAt(s, left.x()) - left.y()) > kSameRow_px) continue;
+    if (std::abs(RowAt(s, right.x()) - right.y()) > kSameRow_px) continue;
+    matches.push_back(&s);
+  }
+  if (matches.empty()) matches.push_back(nullptr);
+  return matches;
+}
+
+double LengthOf(const EdgeSegment* s) {
+  return s == nullptr ? 0.0 : s->Length();
+}
+
+// Edges of the right image, by side; no edge where it has no such level one.
+using RightEdges = std::array<const EdgeSegment*, 4>;
+
+Quadrilateral RightCorners(const Quadrilateral& left, const RightEdges& edges) {
+  Quadrilateral corners;
+  for (size_t i = 0; i < 4; ++i) {
+    const EdgeSegment& upright = *edges[i == 0 || i == 3 ? 3 : 1];
+    const EdgeSegment* level = edges[i < 2 ? 0 : 2];
+    corners[i] = level == nullptr ? Vector2d(ColumnAt(upright, left[i].y()), left[i].y())
+                                  : Meet(upright, *level);
+  }
+  return corners;
+}
+
+FrameSeed SeedOf(const Quadrilateral& left, const Quadrilateral& right,
+                 const RectifiedCamera& camera) {
+  FrameSeed seed;
+  for (size_t i = 0; i < 4; ++i) {
+    const size_t other = 3 - i;  // The upright side's other end.
+    const double v = 0.5 * (left[i].y() + right[i].y());
+    const double u_left = ColumnAt({left[i], left[other], 0.0}, v);
+    const double disparity_px = u_left - ColumnAt({right[i], right[other], 0.0}, v);
+    seed.p_FV[i] = camera.DepthFromDisparity(disparity_px) * camera.Ray({u_left, v});
+  }
+  return seed;
 }
 
 bool NearlySame(const FrameSeed& a, const FrameSeed& b) {
@@ -55,36 +111,38 @@ std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegmen
                                  const cv::Mat1b& right_image, const RectifiedCamera& camera,
                                  const FrameLimits& limits, const DarknessSettings& darkness) {
   const Quadrilateral& q = left.corners_px;
-  const double smallest_px = camera.DisparityFromDepth(limits.farthest_m);
-  const double largest_px = camera.DisparityFromDepth(limits.nearest_m);
-  const auto lefts = Matches(q[0], q[3], right_segments[static_cast<size_t>(Side::kLeft)],
-                             smallest_px, largest_px);
-  const auto rights = Matches(q[1], q[2], right_segments[static_cast<size_t>(Side::kRight)],
-                              smallest_px, largest_px);
+  const auto& [tops, rights, bottoms, lefts] = right_segments;
+  const DisparityRange range{camera.DisparityFromDepth(limits.farthest_m),
+                             camera.DisparityFromDepth(limits.nearest_m)};
   std::vector<FrameSeed> seeds;
-  for (const SideDisparity& l : lefts) {
-    for (const SideDisparity& r : rights) {
-      const std::array<double, 4> d = {l.upper_px, r.upper_px, r.lower_px, l.lower_px};
-      FrameSeed seed;
-      Quadrilateral right;
-      for (size_t i = 0; i < 4; ++i) {
-        seed.p_FV[i] = camera.DepthFromDisparity(d[i]) * camera.Ray(q[i]);
-        right[i] = q[i] - Vector2d(d[i], 0.0);
+  const auto consider = [&](const RightEdges& edges) {
+    const Quadrilateral right = RightCorners(q, edges);
+    FrameSeed seed = SeedOf(q, right, camera);
+    if (!AreCornersOfFrame(seed.p_FV, limits)) return;
+    const double clarity = DarkInside(right_image, right, darkness);
+    if (clarity < kLeastClarity * left.clarity) return;
+    if (!IsDarkThroughout(right_image, right, darkness)) return;
+    seed.clarity = 0.5 * (left.clarity + clarity);
+    seed.length_px = left.length_px + ((LengthOf(edges[3]) + LengthOf(edges[1])) +
+                                       (LengthOf(edges[0]) + LengthOf(edges[2])));
+    seeds.push_back(seed);
+  };
+  const auto left_matches = UprightMatches(q[0], q[3], lefts, range);
+  const auto right_matches = UprightMatches(q[1], q[2], rights, range);
+  for (const EdgeSegment* l : left_matches) {
+    for (const EdgeSegment* r : right_matches) {
+      const Quadrilateral level = RightCorners(q, {nullptr, r, nullptr, l});
+      const auto bottom_matches = LevelMatches(level[3], level[2], bottoms);
+      for (const EdgeSegment* t : LevelMatches(level[0], level[1], tops)) {
+        for (const EdgeSegment* b : bottom_matches) consider({t, r, b, l});
       }
-      if (!AreCornersOfFrame(seed.p_FV, limits)) continue;
-      const double clarity = DarkInside(right_image, right, darkness);
-      if (clarity < kLeastClarity * left.clarity) continue;
-      if (!IsDarkThroughout(right_image, right, darkness)) continue;
-      seed.clarity = 0.5 * (left.clarity + clarity);
-      seeds.push_back(seed);
     }
   }
   return seeds;
 }
 
 std::vector<FrameSeed> ClearestSeeds(std::vector<FrameSeed> seeds, size_t most) {
-  std::stable_sort(seeds.begin(), seeds.end(),
-                   [](const FrameSeed& a, const FrameSeed& b) { return a.clarity > b.clarity; });
+  std::stable_sort(seeds.begin(), seeds.end(), IsClearer<FrameSeed>);
   std::vector<FrameSeed> kept;
   for (const FrameSeed& seed : seeds) {
     if (kept.size() == most) break;

@@ -15,12 +15,14 @@ namespace fenestra {
 struct FrameSeed {
   std::array<Eigen::Vector3d, 4> p_FV;  ///< In the rectified left camera.
   double clarity = 0.0;                 ///< Mean of both views' DarkInside.
+  double length_px = 0.0;               ///< Of both views' edges together.
 };
 
-/// Finds the upright sides of a quadrilateral of the rectified left image again in the right one.
-/// Each corner's disparity is that of its upright side; every pair of edges of the right image that
+/// Finds the sides of a quadrilateral of the rectified left image again in the right one. Each
+/// corner's disparity is that of its upright side; every choice of edges of the right image that
 /// makes a plausible rectangle in space of them, and that is dark in the right image too, is a
-/// seed.
+/// seed. Corners are in the mean of both views' rows, so that neither view comes first; where the
+/// right one has no such level edge, in the left one's.
 std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegments& right_segments,
                                  const cv::Mat1b& right_image, const RectifiedCamera& camera,
                                  const FrameLimits& limits, const DarknessSettings& darkness);

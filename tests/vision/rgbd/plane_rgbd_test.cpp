@@ -93,35 +93,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Sight{{.distance_m = 2.0, .azimuth_rad = -0.4}, true},
                       Sight{{.distance_m = 3.0, .azimuth_rad = 0.1}, true}));
 
-// x -> -x for the world, all pixels and both cameras.
-RgbdCalibration Mirrored(const RgbdCalibration& calibration) {
-  const auto mirrored = [](const CameraModel& camera) {
-    CameraParameters p = camera.parameters();
-    p.cx_px = p.width_px - 1 - p.cx_px;
-    return CameraModel(p);
-  };
-  const Eigen::Vector3d& t = calibration.X_KD.translation();
-  return {mirrored(calibration.color), mirrored(calibration.depth),
-          Pose::Translation({-t.x(), t.y(), t.z()}), calibration.depth_unit_m};
-}
-
-TEST(PlaneRgbd, MirroredImagesMirrorTheEstimate) {
-  const RgbdCalibration calibration = KinectCalibration();
-  const RgbdObservation seen =
-      Seen(calibration, SceneAt({.distance_m = 2.0, .azimuth_rad = 0.3, .roll_rad = 0.05}), 2);
-  RgbdObservation mirrored{.color = {}, .depth = {.raw = {}, .unit_m = seen.depth.unit_m}};
-  cv::flip(seen.color, mirrored.color, 1);
-  cv::flip(seen.depth.raw, mirrored.depth.raw, 1);
-  const WindowEstimate one = Found(Detect(calibration, seen));
-  const WindowEstimate other = Found(Detect(Mirrored(calibration), mirrored));
-  const Eigen::Vector3d expected(-one.p_CO.x(), one.p_CO.y(), one.p_CO.z());
-  // The same pixels: what differs is which of them a place on a side begins with, a small part of
-  // the noise of the edges, which is a hundredth of a pixel and less for a side.
-  EXPECT_LT((other.p_CO - expected).norm(), 0.01 * one.p_CO.z() / 531.15);
-  const Eigen::Vector3d normal(-one.normal_C.x(), one.normal_C.y(), one.normal_C.z());
-  EXPECT_LT((other.normal_C - normal).norm(), 1e-4);
-}
-
 TEST(PlaneRgbd, ScalingTheWorldScalesTheEstimate) {
   const RgbdCalibration small = KinectCalibration();
   RgbdCalibration big = small;

@@ -95,27 +95,6 @@ TEST(EdgeStereo, DistortedAndTurnedCamerasAreNoTrouble) {
   EXPECT_LT((estimate.p_CO - X_LO.translation()).norm(), 0.03 * 4.0 / (600.0 * kBaseline_m));
 }
 
-TEST(EdgeStereo, MirroredWorldGivesMirroredEstimate) {
-  const StereoCalibration rig = PaperRig();
-  const ExactFrame frame = FrameSeenFrom({.distance_m = 3.0, .azimuth_deg = 12.0, .roll_deg = 2.0});
-  const StereoObservation seen = ExactPair(rig, frame, kNoise_dn, RandomStream(1));
-  StereoObservation mirrored;
-  cv::flip(seen.right, mirrored.left, 1);
-  cv::flip(seen.left, mirrored.right, 1);
-  const WindowEstimate one = Found(Detect(rig, seen));
-  const WindowEstimate other = Found(Detect(rig, mirrored));
-  // x -> B - x, as the mirrored right camera becomes the left one. The same pixels: what differs is
-  // which of them a place on a side begins with, a small part of the noise.
-  const Eigen::Vector3d expected(kBaseline_m - one.p_CO.x(), one.p_CO.y(), one.p_CO.z());
-  EXPECT_LT((other.p_CO - expected).norm(), std::sqrt(one.covariance_C->trace()));
-  // The twin with a fault: mirrored, but left is still left.
-  std::swap(mirrored.left, mirrored.right);
-  const Detection faulty = Detect(rig, mirrored);
-  if (const auto* estimate = std::get_if<WindowEstimate>(&faulty)) {
-    EXPECT_GT((estimate->p_CO - expected).norm(), 10.0 * std::sqrt(one.covariance_C->trace()));
-  }
-}
-
 TEST(EdgeStereo, ScalingTheWorldScalesTheEstimate) {
   const StereoCalibration rig = PaperRig();
   const StereoCalibration big_rig = PaperRig({}, Eigen::Vector3d::Zero(), 3.0 * kBaseline_m);
