@@ -100,6 +100,28 @@ INSTANTIATE_TEST_SUITE_P(EachKind, FaultyDetectorTest,
                                            Fault{"error", "exception"}, Fault{"miss", "miss"}),
                          [](const auto& test) { return std::string(test.param.how); });
 
+class NonsenseTest : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(NonsenseTest, EndsTheProgram) {
+  // Wrong from its second observation on: only another program answers the third one.
+  const std::vector<std::string> answers = ThreeAnswers(Fake(GetParam().how, "2+"));
+  EXPECT_EQ(answers, (std::vector<std::string>{"window", GetParam().kind, "window"}));
+}
+
+INSTANTIATE_TEST_SUITE_P(EachKind, NonsenseTest,
+                         ::testing::Values(Fault{"twice", "flood"}, Fault{"bad_json", "bad_json"},
+                                           Fault{"nan", "bad_json"}, Fault{"binary", "bad_json"},
+                                           Fault{"wrong_id", "wrong_id"},
+                                           Fault{"wrong_shape", "bad_answer"},
+                                           Fault{"no_centroid", "bad_answer"}),
+                         [](const auto& test) { return std::string(test.param.how); });
+
+TEST(ExternalDetectorTest, AnOrderlyAnswerKeepsTheProgram) {
+  EXPECT_EQ(ThreeAnswers(Fake("error", "2+")),
+            (std::vector<std::string>{"window", "exception", "exception"}));
+  EXPECT_EQ(ThreeAnswers(Fake("miss", "2+")), (std::vector<std::string>{"window", "miss", "miss"}));
+}
+
 TEST(ExternalDetectorTest, AFailureSaysHowTheProgramEnded) {
   const ExternalDetector detector(std::make_shared<ProgramPool>(Fake("crash")), Calibration());
   StageLog log([] { return 0.0; });

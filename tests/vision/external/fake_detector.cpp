@@ -3,8 +3,8 @@
 //     fake_detector HOW [WHEN]
 //
 // HOW: what it does wrong. WHEN: "always" (default), "third": in about every third observation, as
-// its pixels say, or a number n: in the n-th observation that it is handed. Else it answers with a
-// window whose numbers come from the observation's bytes.
+// its pixels say, a number n: in the n-th observation that it is handed, or n+: from that one on.
+// Else it answers with a window whose numbers come from the observation's bytes.
 
 #include <signal.h>
 #include <unistd.h>
@@ -87,7 +87,8 @@ void Misbehave(const std::string& how, Json answer) {
 
 bool Now(const std::string& when, int count, uint64_t hash) {
   if (when == "always") return true;
-  return when == "third" ? hash % 3 == 0 : count == std::stoi(when);
+  if (when == "third") return hash % 3 == 0;
+  return when.back() == '+' ? count >= std::stoi(when) : count == std::stoi(when);
 }
 
 void Hello(const std::string& how) {
