@@ -1,4 +1,4 @@
-// A frame that no simulator made; see tests/data/README.md.
+// Frames that no simulator made; see tests/data/README.md.
 
 #include <gtest/gtest.h>
 
@@ -34,6 +34,14 @@ const Recording kLivingRoom{.color = "rgbd-icl-nuim/color.png",
                             .depth = "rgbd-icl-nuim/depth.png",
                             .camera = Camera(481.2, 480.0, 319.5, 239.5),
                             .depth_unit_m = 1.0 / 5000.0};
+const Recording kCorner{.color = "rgbd-icl-nuim/4-color.png",
+                        .depth = "rgbd-icl-nuim/4-depth.png",
+                        .camera = kLivingRoom.camera,
+                        .depth_unit_m = 1.0 / 5000.0};
+const Recording kPlant{.color = "rgbd-icl-nuim/5-color.png",
+                       .depth = "rgbd-icl-nuim/5-depth.png",
+                       .camera = kLivingRoom.camera,
+                       .depth_unit_m = 1.0 / 5000.0};
 const Recording kCarpet{.color = "kinect-pcl/color.tiff",
                         .depth = "kinect-pcl/depth.tiff",
                         .camera = Camera(525.0, 525.0, 319.5, 239.5),
@@ -88,6 +96,14 @@ TEST(RecordedFrameTest, APictureFrameThatTheImageCutsIsNoWindow) {
   }
 }
 
+TEST(RecordedFrameTest, BareWallsHaveNoWindow) {
+  for (const Recording& recording : {kCorner, kPlant}) {
+    for (const PaperRgbdOptions& options : {PaperRgbdOptions{}, OpenFrames()}) {
+      EXPECT_TRUE(std::holds_alternative<Miss>(DetectIn(recording, options))) << recording.color;
+    }
+  }
+}
+
 TEST(RecordedFrameTest, ADarkCarpetIsAWindowToThePaperUnlessAFrameIsAskedFor) {
   EXPECT_TRUE(std::holds_alternative<WindowEstimate>(DetectIn(kCarpet, {})));
   PaperRgbdOptions options = OpenFrames();
@@ -118,7 +134,7 @@ TEST(RecordedFrameTest, AMonitorAndABookBeforeARoomAreInNoWall) {
 }
 
 TEST(RecordedFrameTest, NeitherACutPictureFrameNorACarpetIsAWindow) {
-  for (const Recording& recording : {kLivingRoom, kCarpet}) {
+  for (const Recording& recording : {kLivingRoom, kCorner, kPlant, kCarpet}) {
     EXPECT_TRUE(std::holds_alternative<Miss>(DetectIn<PlaneRgbdDetector>(recording, AnyDepth())))
         << recording.color;
   }
