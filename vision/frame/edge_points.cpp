@@ -35,8 +35,8 @@ double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetti
          (1.0 + tangent.squaredNorm());
 }
 
-// What lens and light are like in the middle of a side: of two strips where their number is even, so
-// that it does not matter which end they are counted from.
+// What lens and light are like in the middle of a side: of two strips where their number is even,
+// so that it does not matter which end they are counted from.
 struct Middle {
   Eigen::Vector2d normal;
   double falloff;
@@ -92,8 +92,8 @@ SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const
   const Fitted fitted = FitAll(model, std::move(cut.strips));
   if (fitted.fits.empty()) return edges;
   const Learnt learnt =
-      Learn(model, fitted.strips, fitted.fits, {.excess = fitted.median_square, .falloff = middle.falloff},
-            request, tuning);
+      Learn(model, fitted.strips, fitted.fits,
+            {.excess = fitted.median_square, .falloff = middle.falloff}, request, tuning);
   if (!learnt.tuning.is_even && request.far_px > request.reach_px) {
     EdgeTuning uneven = tuning;
     uneven.is_even = false;

@@ -2,77 +2,104 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <vector>
+
+#include "vision/frame/front_belief.h"
+#include "vision/frame/upright_edges.h"
 
 namespace fenestra {
 namespace {
 
-constexpr double kRebate_m = 0.07;
-// A thick frame flush with the wall, or a thin one that stands back: between these nothing tells.
-constexpr double kThickest_m = 0.11;
-constexpr double kEither_m = 0.05;
-// Of inner sides that tell the frame's depth.
-constexpr double kKnownRelief_m = 0.02;
 // How far frames stand back where nothing tells: windows are set up to 10 cm deep.
-constexpr double kUnknownSetback_m = 0.07;
-// Before the inner sides are seen, and what they are worth: the frame's front edge, its rear edge
-// or what shows in the pane may be what is seen.
-constexpr Setback kUsual{.mean_m = 0.06, .sigma_m = 0.05};
-constexpr double kInnerSides_m = 0.05;
+constexpr Setback kUnknown{.mean_m = 0.0, .sigma_m = 0.07};
+constexpr double kFlush = 0.5;  // Probability, a priori.
+// The same if the opening's edges are in the rectangle's plane.
+constexpr double kFlushIfInOnePlane = 0.99;
+// Two views that are side by side do not tell the depth of level sides, nor of upright ones that
+// each view takes from another edge.
+constexpr double kUnknownReveal_m = 0.05;
+// What has this probability of being flush, is.
+constexpr double kSurelyFlush = 0.95;
+// What has this one may be, and stays: to move a flush frame would spoil what is known best.
+constexpr double kMayBeFlush = 0.15;
+// Of a model with one front, one reveal and one thickness.
+constexpr double kLeastSigma_m = 0.01;
 
 void MoveBack(FrameFit& fit, const Setback& setback) {
-  FrameAdjustment& adjustment = fit.adjustment;
-  const Eigen::Vector3d normal = adjustment.frame.R_LO.col(2);
-  adjustment.frame.p_LO -= setback.mean_m * normal;
-  for (double& relief_m : adjustment.frame.outer_relief_m) relief_m += setback.mean_m;
-  adjustment.frame.inner_relief_m += setback.mean_m;
-  adjustment.covariance.block<3, 3>(3, 3) +=
+  const Eigen::Vector3d normal = fit.front.R_LO.col(2);
+  fit.front.p_LO -= setback.mean_m * normal;
+  fit.adjustment.covariance.block<3, 3>(3, 3) +=
       setback.sigma_m * setback.sigma_m * normal * normal.transpose();
 }
 
-Setback Both(const Setback& a, const Setback& b) {
-  const double at_a = 1.0 / (a.sigma_m * a.sigma_m);
-  const double at_b = 1.0 / (b.sigma_m * b.sigma_m);
-  return {(at_a * a.mean_m + at_b * b.mean_m) / (at_a + at_b), 1.0 / std::sqrt(at_a + at_b)};
+// Of a side's apparent place, where it may be the frame's or the wall's, `depth_m` before it: on
+// sides that are looked at from within; on others the wall's edge hides the frame's. p_OC: of the
+// camera.
+double ParallaxOf(const Eigen::Vector3d& p_OC, const FrameRectangle& frame, int axis, double sign,
+                  double depth_m) {
+  const double half_m = 0.5 * (axis == 0 ? frame.width_m : frame.height_m);
+  const double inwards_m = half_m - sign * p_OC[axis];
+  return std::max(0.0, inwards_m * depth_m / (p_OC.z() + depth_m));
 }
 
-// Some sides may be the wall's and some the frame's own: their parallax is not told apart.
-void AddParallax(FrameFit& fit, double depth_m) {
+// How far upright and level sides may be before the front.
+struct SideDepths {
+  double upright_m;
+  double level_m;
+};
+
+// Some sides may be the wall's and some the frame's own.
+void AddParallax(std::span<const CameraView> views, FrameFit& fit, const SideDepths& depths) {
   const FrameRectangle& frame = fit.adjustment.frame;
-  const double z_m = frame.p_LO.norm();
+  Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  // Of a camera between the views.
+  for (const CameraView& view : views) {
+    p_LC += view.X_CL.inverse().translation() / static_cast<double>(views.size());
+  }
+  const Eigen::Vector3d p_OC = frame.R_LO.transpose() * (p_LC - frame.p_LO);
   for (int axis = 0; axis < 2; ++axis) {
-    const double half_m = 0.5 * (axis == 0 ? frame.width_m : frame.height_m);
-    const double off_m = depth_m * half_m / (std::numbers::sqrt2 * z_m);
+    const double apart_m = axis == 0 ? depths.upright_m : depths.level_m;
+    const double off_m = 0.5 * std::hypot(ParallaxOf(p_OC, frame, axis, 1.0, apart_m),
+                                          ParallaxOf(p_OC, frame, axis, -1.0, apart_m));
     const Eigen::Vector3d direction = frame.R_LO.col(axis);
     fit.adjustment.covariance.block<3, 3>(3, 3) +=
         off_m * off_m * direction * direction.transpose();
   }
 }
 
-}  // namespace
-
-void StandBack(std::span<const CameraView> views, const RevealGrey& grey, FrameFit& fit) {
-  const double inner_m = fit.adjustment.frame.inner_relief_m;
-  const double sigma_m = std::sqrt(fit.adjustment.covariance(13, 13));
-  fit.knows_depth = sigma_m > 0.0 && sigma_m < kKnownRelief_m;
-  if (inner_m + 2.0 * sigma_m > -kRebate_m) return;  // A far frame's thickness is but guessed.
-  const auto reveal = FindSetback(views, fit.adjustment.frame, grey);
-  const Setback inner = Both(kUsual, {kPanes.mean_m - inner_m, std::hypot(sigma_m, kInnerSides_m)});
-  const bool agree = reveal && reveal->mean_m > 0.0 &&
-                     std::abs(reveal->mean_m - inner.mean_m) < 2.0 * inner.sigma_m;
-  const bool either = inner_m > -kThickest_m;
-  const Setback setback = agree ? *reveal : either ? Setback{0.0, kEither_m} : inner;
-  MoveBack(fit, setback);
-  AddParallax(fit, std::max(setback.mean_m, setback.sigma_m));
-  fit.knows_depth = true;
+// The frame between where its upright sides are, and not where they seem to be on its front.
+void Centre(const ParallaxEdge& left, const ParallaxEdge& right, FrameFit& fit) {
+  FrameRectangle& frame = fit.front;
+  frame.p_LO += 0.5 * (left.inset_m - right.inset_m) * frame.R_LO.col(0);
+  frame.width_m -= left.inset_m + right.inset_m;
 }
 
+}  // namespace
+
 void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, FrameFit& fit) {
-  const auto setback = fit.is_flat ? FindSetback(views, fit.adjustment.frame, grey) : std::nullopt;
-  MoveBack(fit, setback.value_or(Setback{0.0, kUnknownSetback_m}));
-  const double depth_m = setback ? std::max(setback->mean_m, setback->sigma_m) : kUnknownSetback_m;
-  if (depth_m > 0.0) AddParallax(fit, depth_m);
-  fit.knows_depth = setback.has_value();
+  const FrameRectangle& frame = fit.adjustment.frame;
+  UprightPair edges;
+  if (views.size() == 2) edges = FindUprightEdges(views[0], views[1], frame);
+  const std::vector<DepthSight> sights = edges.Sights();
+  Setback setback = kUnknown;
+  if (!sights.empty()) {
+    const double flush = fit.is_in_one_plane && edges.AreInPlane() ? kFlushIfInOnePlane
+                                                                   : edges.ProbablyFlush(kFlush);
+    const FrontBelief belief = BelieveFront(sights, flush);
+    if (belief.flush > kSurelyFlush && !edges.IsBesideOther()) return;
+    setback = belief.flush > kMayBeFlush ? Setback{0.0, belief.root_mean_square_m} : belief.setback;
+    setback.sigma_m = std::max(kLeastSigma_m, setback.sigma_m);
+  } else if (edges.AreInPlane() && ShowsNoReveal(views, frame, grey)) {
+    if (!edges.IsBesideOther()) return;
+    setback = {0.0, kLeastSigma_m};
+  }
+  MoveBack(fit, setback);
+  const bool is_centred = !edges.AreInPlane() && edges.AreFarAndNear();
+  if (is_centred) Centre(*edges.left.own, *edges.right.own, fit);
+  const double depth_m = std::max(setback.mean_m - edges.Foremost(), setback.sigma_m);
+  AddParallax(views, fit,
+              {.upright_m =
+                   is_centred || edges.AreInPlane() ? depth_m : std::max(depth_m, kUnknownReveal_m),
+               .level_m = std::max(depth_m, kUnknownReveal_m)});
 }
 
 }  // namespace fenestra

@@ -166,7 +166,7 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
       return std::nullopt;
     }
   }
-  fit->knows_depth = border_.has_value();
+  fit->is_in_one_plane = border_.has_value();
   return fit;
 }
 
@@ -182,8 +182,6 @@ std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
     fit = Rounds(start, {}, kPlaneTolerances_px);
   }
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
-  // Where planes were measured, they and what is known of their offset say where the front is.
-  if (settings_.planes.empty()) StandBack(views_, RevealGreyOf(settings_), *fit);
   return fit;
 }
 
@@ -210,9 +208,9 @@ std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
     if (!fit) border_ = border;
   }
   if (!fit) fit = FitInRelief(start);
-  if (fit && !fit->knows_depth && settings_.planes.empty()) {
-    SettleDepth(views_, RevealGreyOf(settings_), *fit);
-  }
+  if (fit) fit->front = fit->adjustment.frame;
+  // Where planes were measured, they and what is known of their offset say where the front is.
+  if (fit && settings_.planes.empty()) SettleDepth(views_, RevealGreyOf(settings_), *fit);
   if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
   if (fit->LeastSupport() < settings_.min_side_support) {
     return Miss{"unsupported_side",

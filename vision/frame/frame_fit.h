@@ -24,7 +24,9 @@ struct FrameFitSettings {
 };
 
 struct FrameFit {
+  /// Of the rectangle of edges that were seen; of p_LO, the covariance is the front's.
   FrameAdjustment adjustment;
+  FrameRectangle front;  ///< The frame's own, which may be behind that rectangle.
   std::vector<std::vector<EdgePoint>> points;  ///< By view.
   /// Shares of the places along the sides where the frame's edge was found: by side in the better
   /// view, and of all inner sides.
@@ -32,9 +34,8 @@ struct FrameFit {
   std::array<double, 4> inner_supports = {};
   double inner_support = 0.0;
   bool is_flat = true;  ///< Whether the outer sides are in one plane, as well as the images tell.
-  /// Whether the frame's own depth was seen, by its inner sides, and not only the outer ones',
-  /// which may be the wall's.
-  bool knows_depth = false;
+  /// Whether the opening's edges were found in the plane of the outer ones.
+  bool is_in_one_plane = false;
 
   double LeastSupport() const;  ///< Of the outer sides.
   double LeastInnerSupport() const;
@@ -59,16 +60,13 @@ class FrameFitter {
   /// edges bear out:
   ///
   ///   1. all sides in one plane: a painted or a flush frame;
-  ///   2. the outer sides in one plane, the inner ones in another. Up to 7 cm behind it that is
-  ///      the depth of the frame. Farther back, what is seen as the outer sides is the wall's face,
-  ///      and the frame stands back in it;
+  ///   2. the outer sides in one plane, the inner ones in another;
   ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame
   ///   there;
   ///   4. all in one plane, but only to 0.7 px.
   ///
-  /// Where the inner sides do not tell how deep the frame stands, its reveal may (frame_setback.h).
-  /// Where nothing does, the covariance allows for 7 cm. With planes that were measured otherwise
-  /// all that is left alone.
+  /// Then, by what two views show, how far the frame's front is behind that: frame_depth.h. With
+  /// planes that were measured otherwise all that is left alone.
   ///
   /// Miss: "no_edges", "unsupported_side".
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);

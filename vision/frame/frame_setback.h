@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 
 #include "vision/frame/edge_points.h"
@@ -19,17 +18,15 @@ struct RevealGrey {
   double min_contrast_dn;  ///< Of mean grey values along a side: what differs by less is alike.
 };
 
-/// Looks for the reveal, between the wall's edge and the frame. A frame at depth d behind the
-/// rectangle shows, on a side that the camera at distance z looks at from h further inwards,
+/// A frame at depth d behind the rectangle shows, on a side that the camera at distance z looks at
+/// from h further inwards,
 ///
 ///     t = h d / (z + d)
 ///
-/// of it, within the rectangle, and fills the opening there: so all sides and views with an edge
-/// to something darker at some t, before the frame's own opening begins, must agree on d. Where
-/// they do, that is the setback, right to a pixel or so; where none has such an edge although a
-/// reveal 5 cm deep would show it, the frame is flush: mean 0, sigma 0. nullopt where reveals are
-/// too narrow to see, or do not agree.
-std::optional<Setback> FindSetback(std::span<const CameraView> views, const FrameRectangle& frame,
-                                   const RevealGrey& grey);
+/// of the reveal between them, within the rectangle. Whether that is wide enough somewhere to be
+/// seen of a reveal 5 cm deep, and nowhere there is a step to something darker, as from a reveal to
+/// the frame. Where the rectangle is a frame's own edge there is none either.
+bool ShowsNoReveal(std::span<const CameraView> views, const FrameRectangle& frame,
+                   const RevealGrey& grey);
 
 }  // namespace fenestra

@@ -147,7 +147,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
       continue;
     }
     const FrameFit& fit = std::get<FrameFit>(result);
-    WindowEstimate estimate = fit.adjustment.frame.ToEstimate();
+    WindowEstimate estimate = fit.front.ToEstimate();
     estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
     // The rough fit cannot hide behind freedoms that it did not have.
     estimate.score = 0.5 * (candidate.score + FrameScore(views[0], fit, darkness_));

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 
 #include "tests/vision/stereo/exact_frame.h"
 #include "tests/vision/stereo/stereo_scene.h"
@@ -61,6 +62,59 @@ INSTANTIATE_TEST_SUITE_P(Views, SetBack,
                                            View{.distance_m = 3.0, .azimuth_deg = 25.0},
                                            View{.distance_m = 4.0, .azimuth_deg = -40.0},
                                            View{.distance_m = 8.0, .azimuth_deg = 10.0}));
+
+// Half the images' size, so that frames count as twice as far away.
+StereoCalibration SmallRig() {
+  const CameraModel camera = CameraModel::Pinhole(376, 240, 333.0);
+  return {camera, camera, Pose::Translation({-0.35, 0.0, 0.0})};
+}
+
+// 5 and 10 cm deep, between dark and bright reveals, before a dark and a less dark room.
+std::vector<ExactFrame> SetBackFramesSeenFrom(const View& view) {
+  std::vector<ExactFrame> frames;
+  for (const double setback_m : {0.05, 0.10}) {
+    for (const double reveal_dn : {25.0, 120.0}) {
+      for (const double opening_dn : {12.0, 24.0}) {
+        ExactFrame frame{.X_LO = WindowSeenFrom(view)};
+        frame.setback_m = setback_m;
+        frame.reveal_dn = reveal_dn;
+        frame.opening_dn = opening_dn;
+        frames.push_back(frame);
+      }
+    }
+  }
+  return frames;
+}
+
+std::vector<double> NormalisedSquaresOfSetBackFrames() {
+  const StereoCalibration rig = SmallRig();
+  const EdgeStereoDetector detector(rig, {});
+  std::vector<double> squares;
+  for (const double distance_m : {2.0, 3.5}) {
+    for (const double azimuth_deg : {0.0, 25.0, 45.0}) {
+      for (const ExactFrame& frame :
+           SetBackFramesSeenFrom({.distance_m = distance_m, .azimuth_deg = azimuth_deg})) {
+        StageLog log(SteadyClock());
+        const Detection detection =
+            detector.Detect(ExactPair(rig, frame, kNoise_dn, RandomStream(5)), log);
+        const auto* estimate = std::get_if<WindowEstimate>(&detection);
+        if (estimate != nullptr) squares.push_back(NormalisedSquare(*estimate, frame));
+      }
+    }
+  }
+  return squares;
+}
+
+TEST(SetBackFrames, CovarianceDoesNotPromiseTooMuch) {
+  const std::vector<double> squares = NormalisedSquaresOfSetBackFrames();
+  ASSERT_GE(squares.size(), 40u);  // Of 48.
+  // χ² of 3 degrees of freedom at 1 - 0.01/48, for a false alarm in a hundred of all together.
+  // They may be smaller: what the pictures do not tell differs little between such frames.
+  const double limit = 19.7;
+  EXPECT_LT(*std::max_element(squares.begin(), squares.end()), limit);
+  // The twin with a fault: standard deviations of a quarter.
+  EXPECT_GT(16.0 * *std::max_element(squares.begin(), squares.end()), limit);
+}
 
 TEST(FlushFrame, IsNotTakenForOneThatStandsBack) {
   ExactFrame frame{.X_LO = WindowSeenFrom({.distance_m = 2.5, .azimuth_deg = 15.0})};
