@@ -20,8 +20,6 @@ namespace fenestra {
 namespace {
 
 constexpr int kLargestSide_px = 16384;
-// Of all channels, 1 GiB in memory: a small file may claim to be a huge image.
-constexpr int64_t kMostValues = int64_t{1} << 28;
 
 // An output stream into a string, so that the file can appear by rename.
 class StringStream : public Imf::OStream {
@@ -71,7 +69,7 @@ Imf::Slice SliceOf(const cv::Mat1f& values, int left, int top) {
   return Imf::Slice(Imf::FLOAT, data - before, sizeof(float), row_bytes);
 }
 
-ExrImage ReadOrThrow(const std::filesystem::path& file) {
+ExrImage ReadOrThrow(const std::filesystem::path& file, const ExrReadOptions& options) {
   Imf::InputFile input(file.c_str(), 0);
   const Imath::Box2i window = input.header().dataWindow();
   const int64_t width = int64_t{window.max.x} - window.min.x + 1;
@@ -85,9 +83,9 @@ ExrImage ReadOrThrow(const std::filesystem::path& file) {
   const Imf::ChannelList& list = input.header().channels();
   int64_t channels = 0;
   for (auto entry = list.begin(); entry != list.end(); ++entry) ++channels;
-  if (width * height > kMostValues / std::max<int64_t>(channels, 1)) {
+  if (width * height > options.most_values / std::max<int64_t>(channels, 1)) {
     throw InputError(file, fmt::format("{} channels of {} x {} px are more than {} values",
-                                       channels, width, height, kMostValues));
+                                       channels, width, height, options.most_values));
   }
   for (auto entry = list.begin(); entry != list.end(); ++entry) {
     if (entry.channel().xSampling != 1 || entry.channel().ySampling != 1) {
@@ -138,9 +136,9 @@ void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& 
   WriteFileAtomically(file, stream.bytes());
 }
 
-ExrImage ReadExr(const std::filesystem::path& file) {
+ExrImage ReadExr(const std::filesystem::path& file, const ExrReadOptions& options) {
   try {
-    return ReadOrThrow(file);
+    return ReadOrThrow(file, options);
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {

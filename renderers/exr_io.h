@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <opencv2/core.hpp>
@@ -26,9 +27,14 @@ struct ExrImage {
 void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& channels,
               const std::map<std::string, std::string>& metadata);
 
+struct ExrReadOptions {
+  /// Of all channels; 1 GiB in memory by default, as a small file may claim to be a huge image.
+  int64_t most_values = int64_t{1} << 28;
+};
+
 /// Reads the channels (converted to float) and the text attributes of a single-part scan-line or
-/// tiled file. Throws InputError if it is missing, damaged, larger than 16384 pixels a side, deep,
-/// or has subsampled channels.
-ExrImage ReadExr(const std::filesystem::path& file);
+/// tiled file. Throws InputError if it is missing, damaged, larger than 16384 pixels a side or
+/// than the options allow, deep, or has subsampled channels.
+ExrImage ReadExr(const std::filesystem::path& file, const ExrReadOptions& options = {});
 
 }  // namespace fenestra
