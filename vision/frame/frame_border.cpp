@@ -39,6 +39,23 @@ std::optional<double> MeanOfViews(std::span<const CameraView> views, const Frame
   return sum / count;
 }
 
+double BandIn(const CameraView& view, const FrameRectangle& frame, double black_dn) {
+  double most = 0.0;
+  for (const Side side : {Side::kLeft, Side::kRight}) {
+    FrameRectangle outset = frame;
+    const auto brightness = [&](double distance_m) {
+      outset.border_m = -distance_m;
+      const auto grey = MeanAlong(view, outset, side);
+      return grey ? std::max(1.0, *grey - black_dn) : 0.0;
+    };
+    const double near = std::max({brightness(0.03), brightness(0.05), brightness(0.07)});
+    const double far = brightness(0.25);
+    if (near <= 0.0 || far <= 0.0) continue;
+    most = std::max(most, std::log(near / far / 1.4) / std::log(2.0 / 1.4));
+  }
+  return std::min(1.0, most);
+}
+
 }  // namespace
 
 std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& frame, Side side) {
@@ -91,21 +108,10 @@ std::optional<BorderFound> FindBorder(std::span<const CameraView> views,
   return best;
 }
 
-double BrightBand(const CameraView& view, const FrameRectangle& frame, double black_dn) {
-  double most = 0.0;
-  for (const Side side : {Side::kLeft, Side::kRight}) {
-    FrameRectangle outset = frame;
-    const auto brightness = [&](double distance_m) {
-      outset.border_m = -distance_m;
-      const auto grey = MeanAlong(view, outset, side);
-      return grey ? std::max(1.0, *grey - black_dn) : 0.0;
-    };
-    const double near = std::max({brightness(0.03), brightness(0.05), brightness(0.07)});
-    const double far = brightness(0.25);
-    if (near <= 0.0 || far <= 0.0) continue;
-    most = std::max(most, std::log(near / far / 1.4) / std::log(2.0 / 1.4));
-  }
-  return std::min(1.0, most);
+double BrightBand(std::span<const CameraView> views, const FrameRectangle& frame, double black_dn) {
+  double sum = 0.0;
+  for (const CameraView& view : views) sum += BandIn(view, frame, black_dn);
+  return sum / static_cast<double>(views.size());
 }
 
 }  // namespace fenestra

@@ -31,8 +31,8 @@ std::optional<BorderFound> FindBorder(std::span<const CameraView> views,
 
 /// Whether the surroundings of the left or the right side are brighter nearby than farther away, as
 /// beside the opening of a bright frame: 0 up to 1.4 times, 1 from 2 times on, in proportion to the
-/// logarithm in between. (A reveal that faces the sun more than its wall does is rarely so bright;
-/// above and below there are lintels and sills.)
-double BrightBand(const CameraView& view, const FrameRectangle& frame, double black_dn);
+/// logarithm in between; mean of the views. (A reveal that faces the sun more than its wall does is
+/// rarely so bright; above and below there are lintels and sills.)
+double BrightBand(std::span<const CameraView> views, const FrameRectangle& frame, double black_dn);
 
 }  // namespace fenestra

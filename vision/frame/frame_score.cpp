@@ -6,10 +6,8 @@ namespace {
 // What a frame's score is worth whose sides are not in one plane.
 constexpr double kNotFlat = 0.85;
 
-}  // namespace
-
-double FrameClarity(const CameraView& view, const FrameRectangle& frame,
-                    const DarknessSettings& settings) {
+double ClarityIn(const CameraView& view, const FrameRectangle& frame,
+                 const DarknessSettings& settings) {
   constexpr int kPieces = 4;
   double sum = 0.0;
   for (const Side side : kAllSides) {
@@ -24,8 +22,8 @@ double FrameClarity(const CameraView& view, const FrameRectangle& frame,
   return sum / (4 * kPieces);
 }
 
-double FrameGreyRatio(const CameraView& view, const FrameRectangle& frame,
-                      const DarknessSettings& settings) {
+double GreyRatioIn(const CameraView& view, const FrameRectangle& frame,
+                   const DarknessSettings& settings) {
   constexpr int kPieces = 4;
   std::vector<Eigen::Vector2d> outline;
   for (const Side side : kAllSides) {
@@ -38,12 +36,33 @@ double FrameGreyRatio(const CameraView& view, const FrameRectangle& frame,
   return DarkOverBright(view.image, outline, settings);
 }
 
-double FrameScore(const CameraView& view, const FrameFit& fit, const DarknessSettings& settings) {
+// Mean of `of` over the views.
+template <typename Of>
+double Mean(std::span<const CameraView> views, Of of) {
+  double sum = 0.0;
+  for (const CameraView& view : views) sum += of(view);
+  return sum / static_cast<double>(views.size());
+}
+
+}  // namespace
+
+double FrameClarity(std::span<const CameraView> views, const FrameRectangle& frame,
+                    const DarknessSettings& settings) {
+  return Mean(views, [&](const CameraView& view) { return ClarityIn(view, frame, settings); });
+}
+
+double FrameGreyRatio(std::span<const CameraView> views, const FrameRectangle& frame,
+                      const DarknessSettings& settings) {
+  return Mean(views, [&](const CameraView& view) { return GreyRatioIn(view, frame, settings); });
+}
+
+double FrameScore(std::span<const CameraView> views, const FrameFit& fit,
+                  const DarknessSettings& settings) {
   const FrameRectangle& frame = fit.adjustment.frame;
-  const double seen =
-      0.4 * FrameClarity(view, frame, settings) + 0.4 * fit.MeanSupport() + 0.2 * fit.inner_support;
+  const double seen = 0.4 * FrameClarity(views, frame, settings) + 0.4 * fit.MeanSupport() +
+                      0.2 * fit.inner_support;
   return seen * (fit.is_flat ? 1.0 : kNotFlat) *
-         (1.0 - 0.6 * BrightBand(view, frame, settings.black_dn));
+         (1.0 - 0.6 * BrightBand(views, frame, settings.black_dn));
 }
 
 }  // namespace fenestra

@@ -227,14 +227,15 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
   finished.estimate = fitted.ToEstimate();
   finished.estimate.covariance_C = finished.fit.adjustment.covariance.block<3, 3>(3, 3);
   // The rough fit cannot hide behind freedoms that it did not have.
-  finished.estimate.score = 0.5 * (candidate.score + FrameScore(view, finished.fit, darkness_));
+  finished.estimate.score =
+      0.5 * (candidate.score + FrameScore({&view, 1}, finished.fit, darkness_));
   return finished;
 }
 
 std::optional<Miss> PlaneRgbdDetector::Objection(const Sight& sight,
                                                  const FrameRectangle& fitted) const {
   if (auto objection = ObjectionToFrame(fitted, limits_)) return objection;
-  const double clarity = FrameClarity(sight.view, fitted, darkness_);
+  const double clarity = FrameClarity({&sight.view, 1}, fitted, darkness_);
   if (clarity < options_.search.min_darkness) {
     return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
                                         "{:.2f}, {:.2f} are needed",
@@ -274,7 +275,7 @@ Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<Plane
       object(*other);
       continue;
     }
-    const double score = FrameScore(view, *rough, darkness_);
+    const double score = FrameScore(views, *rough, darkness_);
     candidates.push_back({seed, std::move(fitter), std::move(*rough), score});
   }
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -120,7 +120,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
       last_objection = *objection;
       continue;
     }
-    const double score = FrameScore(views[0], *rough, darkness_);
+    const double score = FrameScore(views, *rough, darkness_);
     candidates.push_back({std::move(fitter), std::move(*rough), score});
   }
   if (candidates.empty()) return last_objection;
@@ -140,7 +140,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     if (const Miss* miss = std::get_if<Miss>(&result)) {
       objection = *miss;
     } else {
-      objection = Objection(views[0], std::get<FrameFit>(result));
+      objection = Objection(views, std::get<FrameFit>(result));
     }
     if (objection) {
       if (!first_objection) first_objection = objection;
@@ -150,7 +150,7 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     WindowEstimate estimate = fit.front.ToEstimate();
     estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
     // The rough fit cannot hide behind freedoms that it did not have.
-    estimate.score = 0.5 * (candidate.score + FrameScore(views[0], fit, darkness_));
+    estimate.score = 0.5 * (candidate.score + FrameScore(views, fit, darkness_));
     found.push_back(std::move(estimate));
     fits.push_back(fit);
   }
@@ -184,22 +184,22 @@ std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilat
   return ClearestSeeds(std::move(seeds), static_cast<size_t>(options_.search.most_candidates));
 }
 
-std::optional<Miss> EdgeStereoDetector::Objection(const CameraView& left,
+std::optional<Miss> EdgeStereoDetector::Objection(std::span<const CameraView> views,
                                                   const FrameFit& fit) const {
   const FrameRectangle& frame = fit.adjustment.frame;
   if (auto objection = ObjectionToFrame(frame, limits_)) return objection;
-  const double clarity = FrameClarity(left, frame, darkness_);
+  const double clarity = FrameClarity(views, frame, darkness_);
   if (clarity < options_.search.min_darkness) {
     return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
                                         "{:.2f}, {:.2f} are needed",
                                         clarity, options_.search.min_darkness)};
   }
   // Without an opening of its own it is one: that of a light frame.
-  if (fit.inner_support < kOpening && BrightBand(left, frame, options_.black_dn) > kLight) {
+  if (fit.inner_support < kOpening && BrightBand(views, frame, options_.black_dn) > kLight) {
     return Miss{"light_frame", "what surrounds it is lighter than the wall"};
   }
   if (!options_.prior.knows_grey()) return std::nullopt;
-  return ObjectionOf(options_.prior, FrameGreyRatio(left, frame, darkness_));
+  return ObjectionOf(options_.prior, FrameGreyRatio(views, frame, darkness_));
 }
 
 }  // namespace fenestra

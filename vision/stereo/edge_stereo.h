@@ -46,7 +46,7 @@ class EdgeStereoDetector : public Detector {
   std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                const EdgeSegments& right_segments,
                                const cv::Mat1b& right_image) const;
-  std::optional<Miss> Objection(const CameraView& left, const FrameFit& fit) const;
+  std::optional<Miss> Objection(std::span<const CameraView> views, const FrameFit& fit) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
 
