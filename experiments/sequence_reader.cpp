@@ -152,6 +152,7 @@ class SequenceReader {
       if (!name) continue;
       if (!seen.insert(*name).second) {
         reader_.AddFault(entry.first, fmt::format("'{}' stands twice in {}", *name, what));
+        continue;
       }
       if (const auto value = ReadFreeValue(reader_, entry.second, *name)) {
         values.emplace_back(*name, *value);

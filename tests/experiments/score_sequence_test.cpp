@@ -147,6 +147,8 @@ TEST_F(RecordedSequenceTest, FaultsAreReportedWithTheirPlace) {
   EXPECT_THAT(Complaint(Text("{centroid_m: [0, 0, 1], width_m: 1}")), HasSubstr("height_m"));
   EXPECT_THAT(Complaint(Text("{centriod_m: [0, 0, 1], width_m: 1, height_m: 1}")),
               HasSubstr("Did you mean 'centroid_m'?"));
+  EXPECT_THAT(Complaint(Text("none, levels: {light: dusk, light: noon}")),
+              HasSubstr("'light' stands twice in levels"));
   EXPECT_THAT(Complaint("name: a\nsensor: rgbd\nframes: []\n"), HasSubstr("at least one frame"));
   EXPECT_THAT(Complaint("name: a\nsensor: rgbd\n"), HasSubstr("needs frames"));
   EXPECT_THAT(Complaint("name: a\n"), HasSubstr("needs sensor"));
