@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <vector>
@@ -119,10 +120,7 @@ Images Seen(const uint8_t* data, size_t size) {
   return images;
 }
 
-}  // namespace
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  if (size == 0) return 0;
+std::vector<std::unique_ptr<Detector>> MakeDetectors() {
   cv::setNumThreads(1);
   const CameraModel camera({.width_px = kWidth_px,
                             .height_px = kHeight_px,
@@ -131,17 +129,29 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                             .cx_px = 79.5,
                             .cy_px = 59.5,
                             .distortion = {.k1 = -0.1}});
-  const Images images = Seen(data, size);
+  const StereoCalibration pair{camera, camera, Pose::Translation({-0.1, 0.0, 0.0})};
+  const RgbdCalibration rgbd{camera, camera, Pose()};
+  std::vector<std::unique_ptr<Detector>> detectors;
   for (const DetectorInfo& info : Detectors()) {
+    detectors.push_back(info.sensor == SensorKind::kStereo ? MakeDetector(info.name, pair, {})
+                                                           : MakeDetector(info.name, rgbd, {}));
+  }
+  return detectors;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static const std::vector<std::unique_ptr<Detector>> detectors = MakeDetectors();
+  if (size == 0) return 0;
+  const Images images = Seen(data, size);
+  for (const auto& detector : detectors) {
     StageLog log([] { return 0.0; }, true);
     try {
-      if (info.sensor == SensorKind::kStereo) {
-        const Pose X_RL(Eigen::Matrix3d::Identity(), {-0.1, 0.0, 0.0});
-        MakeDetector(info.name, StereoCalibration{camera, camera, X_RL}, {})
-            ->Detect(StereoObservation{images.left, images.right}, log);
+      if (detector->sensor() == SensorKind::kStereo) {
+        detector->Detect(StereoObservation{images.left, images.right}, log);
       } else {
-        MakeDetector(info.name, RgbdCalibration{camera, camera, Pose()}, {})
-            ->Detect(RgbdObservation{images.color, {images.depth, 0.001}}, log);
+        detector->Detect(RgbdObservation{images.color, {images.depth, 0.001}}, log);
       }
     } catch (const InputError&) {
     }
