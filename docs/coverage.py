@@ -44,4 +44,5 @@ def main():
               f" mean square {sum(values) / len(values):6.2f}")
 
 
-main()
+if __name__ == "__main__":
+    main()
