@@ -66,6 +66,7 @@ struct SideRequest {
   double far_px;
   double min_contrast_dn;
   Vignetting vignetting;
+  bool coarse = false;  ///< Every third strip only.
 
   double inside_px() const { return border == Border::kOuter ? reach_px : far_px; }
   double outside_px() const { return border == Border::kOuter ? far_px : reach_px; }

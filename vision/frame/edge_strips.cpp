@@ -11,6 +11,7 @@ using Eigen::Vector2d;
 constexpr double kLength_px = 8.0;
 constexpr int kFewest = 3;
 constexpr int kMost = 40;
+constexpr int kFewestCoarse = 9;
 
 // Upright box around a strip from `inside_px` on one side of the edge to `outside_px` on the other.
 cv::Rect BoxOf(const EdgeStrip& strip, double half_length_px, double inside_px, double outside_px) {
@@ -49,6 +50,12 @@ std::vector<StripPixel> Gather(const cv::Mat1b& image, const EdgeStrip& strip,
   return pixels;
 }
 
+bool IsCut(int i, int count, const SideRequest& request) {
+  if (!request.coarse || count < kFewestCoarse) return true;
+  const int from_middle = std::abs(2 * i - (count - 1));  // In half strips.
+  return from_middle % 6 == (count % 2 == 1 ? 0 : 3);
+}
+
 }  // namespace
 
 EdgeStrips CutStrips(const CameraView& view, const FrameRectangle& frame,
@@ -67,6 +74,7 @@ EdgeStrips CutStrips(const CameraView& view, const FrameRectangle& frame,
   const int count = std::clamp(static_cast<int>(usable * length_px / kLength_px), kFewest, kMost);
   const double step = usable / count;
   for (int i = 0; i < count; ++i) {
+    if (!IsCut(i, count, request)) continue;
     const double share = margin + (i + 0.5) * step;
     const auto from = pixel_at(share - 0.5 * step);
     const auto to = pixel_at(share + 0.5 * step);

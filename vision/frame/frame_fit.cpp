@@ -15,6 +15,8 @@ namespace {
 // up a whole side at once. So first all points count as if they were so uncertain.
 constexpr double kRoughTolerance_px = 0.7;
 constexpr std::array<double, 3> kPlaneTolerances_px = {0.3, 0.0, 0.0};
+// Of a round after which others follow: up from here every third strip tells the frame as well.
+constexpr double kCoarse_px = 0.3;
 // Sides in relief are less straight and less parallel than a frame's own.
 constexpr std::array<double, 3> kReliefTolerances_px = {0.3, 0.1, 0.05};
 constexpr std::array<double, 3> kCoarseTolerances_px = {0.7, 0.7, 0.7};
@@ -89,7 +91,8 @@ int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideReq
 }
 
 std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
-                                           const FrameKnowledge& knowledge, double tolerance_px) {
+                                           const FrameKnowledge& knowledge, double tolerance_px,
+                                           bool is_last) {
   FrameFit fit;
   fit.points.resize(views_.size());
   PlaceCounts places;
@@ -106,7 +109,8 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
         .reach_px = reach_px,
         .far_px = tolerance_px > 0.0 ? reach_px : std::max(reach_px, settings_.far_px),
         .min_contrast_dn = settings_.min_contrast_dn,
-        .vignetting = settings_.vignetting};
+        .vignetting = settings_.vignetting,
+        .coarse = !is_last && tolerance_px >= kCoarse_px};
     for (const Side side : kAllSides) {
       const auto s = static_cast<size_t>(side);
       request.side = side;
@@ -137,8 +141,9 @@ std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& 
                                             std::span<const double> tolerances_px) {
   for (size_t i = 0; i < tolerances_px.size(); ++i) {
     FrameKnowledge now = knowledge;
-    if (i + 1 == tolerances_px.size()) now.size = settings_.size;
-    auto next = Round(fit.adjustment.frame, now, tolerances_px[i]);
+    const bool is_last = i + 1 == tolerances_px.size();
+    if (is_last) now.size = settings_.size;
+    auto next = Round(fit.adjustment.frame, now, tolerances_px[i], is_last);
     if (!next) return std::nullopt;
     fit = std::move(*next);
   }
@@ -146,11 +151,11 @@ std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& 
 }
 
 std::optional<FrameFit> FrameFitter::FitRoughly(const FrameRectangle& start) {
-  return Round(start, {}, kRoughTolerance_px);
+  return Round(start, {}, kRoughTolerance_px, false);
 }
 
 std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
-  auto fit = Round(start.adjustment.frame, {}, kPlaneTolerances_px[0]);
+  auto fit = Round(start.adjustment.frame, {}, kPlaneTolerances_px[0], false);
   // One round tells whether the inner sides are in that plane at all.
   if (!fit || (border_ && fit->inner_support < kHopelessSupport)) return std::nullopt;
   fit = Rounds(std::move(*fit), {}, std::span(kPlaneTolerances_px).subspan<1>());
@@ -171,7 +176,7 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
 }
 
 std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
-  auto fit = Round(start.adjustment.frame, kFree, kPlaneTolerances_px[0]);
+  auto fit = Round(start.adjustment.frame, kFree, kPlaneTolerances_px[0], false);
   if (fit && fit->inner_support >= kHopelessSupport) {
     fit = Rounds(std::move(*fit), kFree, std::span(kPlaneTolerances_px).subspan<1>());
   } else {

@@ -73,7 +73,7 @@ class FrameFitter {
 
  private:
   std::optional<FrameFit> Round(const FrameRectangle& frame, const FrameKnowledge& knowledge,
-                                double tolerance_px);
+                                double tolerance_px, bool is_last);
   std::optional<FrameFit> FitInOnePlane(const FrameFit& start);
   std::optional<FrameFit> FitBeforePanes(const FrameFit& start);
   std::optional<FrameFit> FitInRelief(const FrameFit& start);
