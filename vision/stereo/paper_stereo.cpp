@@ -88,31 +88,36 @@ Detection PaperStereoDetector::Detect(const Observation& observation, StageLog& 
   log.Picture("rectified", [&] { return DrawRectifiedPair(pair); }, {views[0], views[1]});
 
   log.Begin("match");
-  const Matches matches = Match(pair);
+  Matches matches = Match(pair);
+  Frames frames = FindFramesIn(matches);
+  if (options_.guided_search && std::holds_alternative<Miss>(frames)) {
+    if (auto again = MatchAgain(pair, matches)) {
+      matches = std::move(*again);
+      frames = FindFramesIn(matches);
+    }
+  }
 
   log.Begin("depth_image");
   const cv::Mat1f depth_m = DepthFromDisparity(matches.disparity, rectification_.camera());
   log.Picture("depth_image", [&] { return DrawDepth(depth_m, range_); }, {views[0]});
 
   log.Begin("close_gaps");
-  Detection detection = FindWindows(pair, matches, log);
+  Detection detection = Miss{};
+  if (const Miss* miss = std::get_if<Miss>(&frames)) {
+    detection = *miss;
+  } else {
+    detection = FindWindows(pair, matches, std::get<std::vector<FrameHypothesis>>(frames), log);
+  }
   log.End();
   return detection;
 }
 
 Detection PaperStereoDetector::FindWindows(const RectifiedPair& pair, const Matches& matches,
+                                           const std::vector<FrameHypothesis>& frames,
                                            StageLog& log) const {
-  if (matches.patches.empty()) {
-    return Miss{"no_matches",
-                fmt::format("no matched patch is {} px tall; {} pixels are matched",
-                            patches_.min_height_px, cv::countNonZero(matches.disparity))};
-  }
-  const auto frames = FindFrames(matches.patches, matches.disparity, rectification_.camera(),
-                                 criteria_, static_cast<size_t>(options_.most_windows));
-  if (const Miss* miss = std::get_if<Miss>(&frames)) return *miss;
   std::optional<Miss> first_miss;
   std::vector<WindowEstimate> windows;
-  for (const FrameHypothesis& frame : std::get<std::vector<FrameHypothesis>>(frames)) {
+  for (const FrameHypothesis& frame : frames) {
     log.Begin("close_gaps");
     const DepthPatch closed =
         CloseGaps(matches.disparity, frame.hull, frame.plane, options_.plane_tolerance_px,
@@ -184,16 +189,28 @@ WindowEstimate PaperStereoDetector::WithCovariance(const WindowEstimate& estimat
 }
 
 PaperStereoDetector::Matches PaperStereoDetector::Match(const RectifiedPair& pair) const {
-  const cv::Mat1b& left_seen = rectification_.left_seen();
-  const cv::Mat1b& right_seen = rectification_.right_seen();
-  const cv::Mat1f disparity = MatchBlocks(pair, left_seen, right_seen, matching_);
-  std::vector<MatchedPatch> patches = FindPatches(disparity, patches_);
-  if (!options_.guided_search) return {disparity, std::move(patches)};
-  const auto again =
-      MatchAgainNearPatches(pair, left_seen, right_seen, matching_, disparity, patches,
-                            options_.min_side_m / rectification_.camera().baseline_m);
-  if (!again) return {disparity, std::move(patches)};
-  return {*again, FindPatches(*again, patches_)};
+  const cv::Mat1f disparity =
+      MatchBlocks(pair, rectification_.left_seen(), rectification_.right_seen(), matching_);
+  return {disparity, FindPatches(disparity, patches_)};
+}
+
+std::optional<PaperStereoDetector::Matches> PaperStereoDetector::MatchAgain(
+    const RectifiedPair& pair, const Matches& matches) const {
+  const auto again = MatchAgainNearPatches(
+      pair, rectification_.left_seen(), rectification_.right_seen(), matching_, matches.disparity,
+      matches.patches, options_.min_side_m / rectification_.camera().baseline_m);
+  if (!again) return std::nullopt;
+  return Matches{*again, FindPatches(*again, patches_)};
+}
+
+PaperStereoDetector::Frames PaperStereoDetector::FindFramesIn(const Matches& matches) const {
+  if (matches.patches.empty()) {
+    return Miss{"no_matches",
+                fmt::format("no matched patch is {} px tall; {} pixels are matched",
+                            patches_.min_height_px, cv::countNonZero(matches.disparity))};
+  }
+  return FindFrames(matches.patches, matches.disparity, rectification_.camera(), criteria_,
+                    static_cast<size_t>(options_.most_windows));
 }
 
 std::optional<Quadrilateral> PaperStereoDetector::FindCorners(

@@ -34,8 +34,8 @@ BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
 /// "depth_image", and of the best "closed_contour" and "edges".
 ///
 /// Departures from the paper, which is brief: contours are closed across the frame's horizontal
-/// sides, which block matching cannot see; a second search near the first result; corners are
-/// moved in by what the SAD window fattens. The last two are options.
+/// sides, which block matching cannot see; a second search near the first result where that holds
+/// no frame; corners are moved in by what the SAD window fattens. The last two are options.
 class PaperStereoDetector : public Detector {
  public:
   /// Throws InputError for options that Validate refuses and for a calibration that cannot be
@@ -54,9 +54,16 @@ class PaperStereoDetector : public Detector {
     cv::Mat1f disparity;
     std::vector<MatchedPatch> patches;
   };
+  using Frames = std::variant<std::vector<FrameHypothesis>, Miss>;
+
   Matches Match(const RectifiedPair& pair) const;
+  /// nullopt where that changes nothing.
+  std::optional<Matches> MatchAgain(const RectifiedPair& pair, const Matches& matches) const;
+  /// They refer to the matches.
+  Frames FindFramesIn(const Matches& matches) const;
   /// The stages from close_gaps on.
-  Detection FindWindows(const RectifiedPair& pair, const Matches& matches, StageLog& log) const;
+  Detection FindWindows(const RectifiedPair& pair, const Matches& matches,
+                        const std::vector<FrameHypothesis>& frames, StageLog& log) const;
   /// Those from edges on, for one frame.
   Detection MeasureFrame(const RectifiedPair& pair, const FrameHypothesis& frame,
                          const DepthPatch& closed, StageLog& log, bool with_pictures) const;

@@ -38,7 +38,7 @@ void AddMatching(Table& table) {
       .Switch("left_right_check", FENESTRA_FIELD(left_right_check),
               "drop matches that are not mutual")
       .Switch("guided_search", FENESTRA_FIELD(guided_search),
-              "search again near the first matches, where a frame's sides are not alike");
+              "where no frame is found, search again near the first matches");
 }
 
 void AddGapClosing(Table& table) {

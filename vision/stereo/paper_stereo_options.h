@@ -32,8 +32,8 @@ struct PaperStereoOptions {
   double speckle_step_px = 1.0;
   /// Off, as the paper names no such check; the uniqueness test is meant for the same faults.
   bool left_right_check = false;
-  /// Search again near what was found, see guided_matching.h. Without it a frame's right side is
-  /// lost where its double is in range: 1 m frames beyond 4.6 m.
+  /// Search again near what was found if that is no frame, see guided_matching.h. Without it a
+  /// frame's right side is lost where its double is in range: 1 m frames beyond 4.6 m.
   bool guided_search = true;
 
   // Gap closing.
