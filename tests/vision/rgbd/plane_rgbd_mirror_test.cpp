@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/mirrored_estimate.h"
 #include "tests/vision/rgbd/exact_kinect.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
 #include "vision/rgbd/plane_rgbd.h"
@@ -46,17 +47,8 @@ RgbdObservation Mirrored(const RgbdObservation& seen) {
   return mirrored;
 }
 
-Eigen::Vector3d MirroredPoint(const Eigen::Vector3d& p) {
-  return {-p.x(), p.y(), p.z()};
-}
-
 double LargestDifference(const WindowEstimate& one, const WindowEstimate& mirrored) {
-  double most = (mirrored.p_CO - MirroredPoint(one.p_CO)).norm();
-  for (size_t i = 0; i < 4; ++i) {
-    const size_t other = i ^ 1;  // Left and right corners change places.
-    most = std::max(most, (mirrored.p_CV[other] - MirroredPoint(one.p_CV[i])).norm());
-  }
-  return most;
+  return testing::DistanceFromMirrored(one, 0.0, mirrored);
 }
 
 // Rounding, see edge_stereo_mirror_test.cpp; 1e-8 m has been seen.

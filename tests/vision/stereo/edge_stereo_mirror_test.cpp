@@ -2,6 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/mirrored_estimate.h"
 #include "tests/vision/stereo/exact_frame.h"
 #include "tests/vision/stereo/stereo_scene.h"
 #include "vision/stereo/edge_stereo.h"
@@ -40,17 +41,8 @@ StereoObservation Mirrored(const StereoObservation& seen) {
 }
 
 // Mirrored, x becomes B - x: the mirrored right camera is the left one.
-Eigen::Vector3d MirroredPoint(const Eigen::Vector3d& p) {
-  return {kBaseline_m - p.x(), p.y(), p.z()};
-}
-
 double LargestDifference(const WindowEstimate& one, const WindowEstimate& mirrored) {
-  double most = (mirrored.p_CO - MirroredPoint(one.p_CO)).norm();
-  for (size_t i = 0; i < 4; ++i) {
-    const size_t other = i ^ 1;  // Left and right corners change places.
-    most = std::max(most, (mirrored.p_CV[other] - MirroredPoint(one.p_CV[i])).norm());
-  }
-  return most;
+  return testing::DistanceFromMirrored(one, kBaseline_m, mirrored);
 }
 
 // The same pixels and the same steps, so what differs is the order in which sums are rounded. That
