@@ -42,14 +42,16 @@ double ParallaxOf(const Eigen::Vector3d& p_OC, const FrameRectangle& frame, int 
   return std::max(0.0, inwards_m * depth_m / (p_OC.z() + depth_m));
 }
 
-// How far upright and level sides may be before the front.
-struct SideDepths {
-  double upright_m;
-  double level_m;
-};
+// The frame between where its upright sides are, and not where they seem to be on its front.
+void Centre(const ParallaxEdge& left, const ParallaxEdge& right, FrameFit& fit) {
+  FrameRectangle& frame = fit.front;
+  frame.p_LO += 0.5 * (left.inset_m - right.inset_m) * frame.R_LO.col(0);
+  frame.width_m -= left.inset_m + right.inset_m;
+}
 
-// Some sides may be the wall's and some the frame's own.
-void AddParallax(std::span<const CameraView> views, FrameFit& fit, const SideDepths& depths) {
+}  // namespace
+
+void AddParallax(std::span<const CameraView> views, const SideDepths& depths, FrameFit& fit) {
   const FrameRectangle& frame = fit.adjustment.frame;
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  // Of a camera between the views.
   for (const CameraView& view : views) {
@@ -65,15 +67,6 @@ void AddParallax(std::span<const CameraView> views, FrameFit& fit, const SideDep
         off_m * off_m * direction * direction.transpose();
   }
 }
-
-// The frame between where its upright sides are, and not where they seem to be on its front.
-void Centre(const ParallaxEdge& left, const ParallaxEdge& right, FrameFit& fit) {
-  FrameRectangle& frame = fit.front;
-  frame.p_LO += 0.5 * (left.inset_m - right.inset_m) * frame.R_LO.col(0);
-  frame.width_m -= left.inset_m + right.inset_m;
-}
-
-}  // namespace
 
 void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, FrameFit& fit) {
   const FrameRectangle& frame = fit.adjustment.frame;
@@ -96,10 +89,11 @@ void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, Fram
   const bool is_centred = !edges.AreInPlane() && edges.AreFarAndNear();
   if (is_centred) Centre(*edges.left.own, *edges.right.own, fit);
   const double depth_m = std::max(setback.mean_m - edges.Foremost(), setback.sigma_m);
-  AddParallax(views, fit,
-              {.upright_m =
-                   is_centred || edges.AreInPlane() ? depth_m : std::max(depth_m, kUnknownReveal_m),
-               .level_m = std::max(depth_m, kUnknownReveal_m)});
+  const double blended_m = std::max(depth_m, kUnknownReveal_m);
+  AddParallax(
+      views,
+      {.upright_m = is_centred || edges.AreInPlane() ? depth_m : blended_m, .level_m = blended_m},
+      fit);
 }
 
 }  // namespace fenestra

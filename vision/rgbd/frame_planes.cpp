@@ -27,6 +27,12 @@ constexpr double kLeastOpen = 0.3;  // Of the pixels between the edges.
 constexpr double kLeastBefore = 0.6;
 // Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
 constexpr double kLeastReturns = 0.6;
+// Down to here the mean of them is right to this.
+constexpr double kFewReturns = 0.3;
+constexpr double kMovedSigma_m = 0.02;
+// A frame that is not where it was said to be is something else.
+constexpr double kUnexpected = 5.0;
+constexpr double kTold_m = 0.01;
 constexpr double kInlier = 3.5;
 constexpr double kInPlane = 0.9;  // Of the points of a surface.
 
@@ -109,6 +115,23 @@ bool StandsBefore(const FrameDepth& depth, const DepthPlane& wall) {
   return before >= kLeastOff && before > kLeastBefore * (depth.border_pixels + depth.inside_pixels);
 }
 
+// What is seen of a frame's front.
+struct Front {
+  bool is_whole = false;
+  std::optional<Offset> offset;
+};
+
+Front SeeFront(const FrameDepth& points, const DepthPlane& wall, const DepthNoise& noise) {
+  const double share =
+      static_cast<double>(points.border.size()) / std::max(1.0, points.border_pixels);
+  Front front{.is_whole = share > kLeastReturns, .offset = {}};
+  if (share > kFewReturns) front.offset = MeasureOffset(points.border, wall, noise);
+  if (front.offset && !front.is_whole) {
+    front.offset->sigma_m = std::hypot(front.offset->sigma_m, kMovedSigma_m);
+  }
+  return front;
+}
+
 }  // namespace
 
 std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>& points,
@@ -126,7 +149,8 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
     return Miss{"no_depth", fmt::format("{} depth pixels of the wall around the frame",
                                         found.points.wall.size())};
   }
-  if (AreInPlane(found.points.inside, *measured, settings.noise)) {
+  const bool opening_is_in_plane = AreInPlane(found.points.inside, *measured, settings.noise);
+  if (opening_is_in_plane) {
     found.points.wall.insert(found.points.wall.end(), found.points.inside.begin(),
                              found.points.inside.end());
     const auto both = MeasureDepthPlane(found.points.wall, measured->m, settings.noise, kLeastWall);
@@ -134,29 +158,38 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
   }
   found.wall = *measured;
   found.setback_m = settings.setback_m;
-  const std::vector<DepthPoint>& front = found.points.border;
   if (IsOpen(found.points, found.wall, settings.setback_m)) {
     return Miss{"open_border", "what is seen between the frame's edges is far behind them"};
   }
   if (StandsBefore(found.points, found.wall)) {
     return Miss{"stands_before", "what is seen within the frame's edges is far before the wall"};
   }
-  double sigma_m = settings.setback_sigma_m;
-  const bool is_seen =
-      static_cast<double>(front.size()) > kLeastReturns * found.points.border_pixels;
-  const auto offset = is_seen ? MeasureOffset(front, found.wall, settings.noise) : std::nullopt;
-  if (offset) {
-    const double off_m = std::abs(offset->setback_m - settings.setback_m);
-    const double allowed_m =
-        std::max(kOtherwise_m, kOtherwise * std::hypot(offset->sigma_m, sigma_m));
-    if (off_m > allowed_m) {
-      found.setback_m = offset->setback_m;
-      sigma_m = kFree_m;
+  const Front seen = SeeFront(found.points, found.wall, settings.noise);
+  // What has wall within it is painted on it.
+  const bool is_painted = opening_is_in_plane && settings.setback_m == 0.0;
+  found.setback_sigma_m = is_painted ? 0.0 : settings.setback_sigma_m;
+  double fitted_sigma_m = settings.fits_setback ? found.setback_sigma_m : 0.0;
+  if (seen.offset) {
+    const double off_m = std::abs(seen.offset->setback_m - settings.setback_m);
+    const double sigma_m = std::hypot(found.setback_sigma_m, seen.offset->sigma_m, kTold_m);
+    if (!is_painted && off_m > kUnexpected * sigma_m) {
+      return Miss{"unexpected_setback",
+                  fmt::format("what is seen between the frame's edges is {:.3f} m behind the wall, "
+                              "not {:.3f} m",
+                              seen.offset->setback_m, settings.setback_m)};
     }
+    // A few returns are better than none.
+    const double surely_m = seen.is_whole ? kOtherwise * seen.offset->sigma_m : 0.0;
+    if (!is_painted && off_m > std::max(kOtherwise_m, surely_m)) {
+      found.setback_m = seen.offset->setback_m;
+      if (seen.is_whole) fitted_sigma_m = kFree_m;
+    }
+    found.setback_sigma_m = std::min(found.setback_sigma_m, seen.offset->sigma_m);
   }
-  found.planes.push_back(WallMeasurement(found.wall, found.setback_m, sigma_m));
-  const auto own =
-      MeasureDepthPlane(front, Behind(found.wall.m, found.setback_m), settings.noise, kLeastFront);
+  found.planes.push_back(WallMeasurement(found.wall, found.setback_m, fitted_sigma_m));
+  if (!seen.is_whole) return found;
+  const auto own = MeasureDepthPlane(found.points.border, Behind(found.wall.m, found.setback_m),
+                                     settings.noise, kLeastFront);
   if (own) found.planes.push_back({.m = own->m, .information = own->information, .relief_m = 0.0});
   return found;
 }

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "vision/frame/frame_depth.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
 #include "vision/rgbd/frame_paint.h"
@@ -101,6 +102,16 @@ FrameRectangle Moved(const FrameRectangle& frame, const Eigen::Vector3d& center,
   moved.height_m *= factor;
   moved.border_m *= factor;
   return moved;
+}
+
+// What is not known of a setback, along the normal unless the fit has it, and across it.
+void AddSetback(const CameraView& view, bool is_fitted, const FramePlanes& planes, FrameFit& fit) {
+  const double depth_m = std::max(std::abs(planes.setback_m), planes.setback_sigma_m);
+  if (!(depth_m > 0.0)) return;
+  AddParallax(std::span(&view, 1), {.upright_m = depth_m, .level_m = depth_m}, fit);
+  if (is_fitted || planes.planes.size() > 1) return;
+  const Eigen::Vector3d off = planes.setback_sigma_m * fit.adjustment.frame.R_LO.col(2);
+  fit.adjustment.covariance.block<3, 3>(3, 3) += off * off.transpose();
 }
 
 }  // namespace
@@ -209,7 +220,8 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
                                      {.noise = noise_,
                                       .clear_px = clear_px_,
                                       .setback_m = options_.setback_m,
-                                      .setback_sigma_m = options_.setback_sigma_m});
+                                      .setback_sigma_m = options_.setback_sigma_m,
+                                      .fits_setback = fitting_.size.has_value()});
   if (const Miss* miss = std::get_if<Miss>(&measured)) return *miss;
   FramePlanes& planes = std::get<FramePlanes>(measured);
   if (planes.setback_m != options_.setback_m) {
@@ -222,6 +234,7 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
   auto result = candidate.fitter.Finish(rough);
   if (const Miss* miss = std::get_if<Miss>(&result)) return *miss;
   Finished finished{std::move(std::get<FrameFit>(result)), std::move(planes), {}};
+  AddSetback(view, fitting_.size.has_value(), finished.planes, finished.fit);
   const FrameRectangle& fitted = finished.fit.adjustment.frame;
   if (auto objection = Objection(sight, fitted)) return *objection;
   finished.estimate = fitted.ToEstimate();

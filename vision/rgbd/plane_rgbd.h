@@ -39,9 +39,9 @@ class PlaneRgbdDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kRgbd; }
 
   /// Miss: "no_quadrilateral", "no_depth", "not_a_rectangle", "no_edges", "unsupported_side",
-  /// "implausible_shape", "not_dark", "open_border", "stands_before", "uneven_border", by how far
-  /// the best candidate came; "unexpected_size", "unexpected_shape" or "unexpected_color" with a
-  /// prior.
+  /// "implausible_shape", "not_dark", "open_border", "stands_before", "unexpected_setback",
+  /// "uneven_border", by how far the best candidate came; "unexpected_size", "unexpected_shape" or
+  /// "unexpected_color" with a prior.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:

@@ -26,10 +26,11 @@ struct PlaneRgbdOptions {
   /// Largest depth that the sensor gives; 0: no limit. Kinect SDK: 4 m.
   double depth_to_m = 4.0;
 
-  // How far the frame's front is behind the wall around it; where it has no depth of its own, the
-  // wall's is all there is.
+  // How far the frame's front is behind the wall around it. Of a frame that returns depth of its
+  // own, or that has wall within it, that is seen; of others it is all that is known.
   double setback_m = 0.0;
-  double setback_sigma_m = 0.0;  ///< Standard deviation of that knowledge; 0: a flush frame.
+  /// Standard deviation of that knowledge: windows are set up to 10 cm deep. 0: it is exact.
+  double setback_sigma_m = 0.1;
 
   /// A known size also goes into the fit, and helps the depth.
   WindowPrior prior;

@@ -284,6 +284,41 @@ TEST(PlaneRgbd, AFrameBehindTheWallIsWhereTheOptionSays) {
   EXPECT_NEAR(std::sqrt((*estimate.covariance_C)(2, 2)), 0.05, 0.01);
 }
 
+TEST(PlaneRgbd, OfAFrameWithoutDepthNoMoreIsSaidThanIsKnown) {
+  const RgbdCalibration calibration = KinectCalibration();
+  for (const double setback_m : {0.0, 0.05, 0.10}) {
+    for (const double azimuth_rad : {0.1, 0.6}) {
+      ExactKinectScene scene = SceneAt({.distance_m = 2.0, .azimuth_rad = azimuth_rad});
+      scene.setback_m = setback_m;
+      scene.opening_m = 3.0;  // A room: the frame is not painted on the wall.
+      scene.frame.opening_dn = 20.0;
+      const RgbdObservation seen = Seen(calibration, scene, 8);
+      const Eigen::Vector3d truth = scene.frame.X_LO.translation();
+      EXPECT_LT(SquaredError(Found(Detect(calibration, seen)), truth), kChi3) << setback_m;
+      // The twin with a fault: told that frames are flush.
+      PlaneRgbdOptions flush;
+      flush.setback_sigma_m = 0.0;
+      const double square = SquaredError(Found(Detect(calibration, seen, flush)), truth);
+      EXPECT_EQ(square > kChi3, setback_m > 0.0) << setback_m;
+    }
+  }
+}
+
+TEST(PlaneRgbd, AFrameThatIsNotWhereItWasSaidToBeIsRefused) {
+  const RgbdCalibration calibration = KinectCalibration();
+  ExactKinectScene scene = SceneAt({.distance_m = 1.6, .azimuth_rad = 0.1});
+  scene.frame_returns = true;
+  scene.setback_m = 0.04;
+  PlaneRgbdOptions options;
+  options.setback_m = 0.15;
+  options.setback_sigma_m = 0.005;
+  const Detection detection = Detect(calibration, Seen(calibration, scene, 9), options);
+  ASSERT_TRUE(std::holds_alternative<Miss>(detection));
+  EXPECT_EQ(std::get<Miss>(detection).reason, "unexpected_setback");
+  options.setback_sigma_m = 0.1;
+  Found(Detect(calibration, Seen(calibration, scene, 9), options));
+}
+
 TEST(PlaneRgbd, AFrameWithDepthOfItsOwnTellsHowFarItIsBehindTheWall) {
   const RgbdCalibration calibration = KinectCalibration();
   ExactKinectScene scene = SceneAt({.distance_m = 1.6, .azimuth_rad = 0.1});
