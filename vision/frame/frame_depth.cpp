@@ -24,6 +24,8 @@ constexpr double kSurelyFlush = 0.95;
 constexpr double kMayBeFlush = 0.15;
 // Of a model with one front, one reveal and one thickness.
 constexpr double kLeastSigma_m = 0.01;
+// Of parallax, what edges that are near each other in the pictures leave in all sights alike.
+constexpr double kBlend_px = 0.1;
 
 void MoveBack(FrameFit& fit, const Setback& setback) {
   const Eigen::Vector3d normal = fit.front.R_LO.col(2);
@@ -40,6 +42,15 @@ double ParallaxOf(const Eigen::Vector3d& p_OC, const FrameRectangle& frame, int 
   const double half_m = 0.5 * (axis == 0 ? frame.width_m : frame.height_m);
   const double inwards_m = half_m - sign * p_OC[axis];
   return std::max(0.0, inwards_m * depth_m / (p_OC.z() + depth_m));
+}
+
+double LeastSigma(std::span<const CameraView> views, const FrameRectangle& frame) {
+  if (views.size() != 2) return kLeastSigma_m;
+  const Eigen::Vector3d p_LR = views[1].X_CL.inverse().translation();
+  const double baseline_m = (p_LR - views[0].X_CL.inverse().translation()).norm();
+  const double by_pixel_m =
+      frame.p_LO.squaredNorm() / (views[0].camera.parameters().fx_px * baseline_m);
+  return std::hypot(kLeastSigma_m, kBlend_px * by_pixel_m);
 }
 
 // The frame between where its upright sides are, and not where they seem to be on its front.
@@ -80,7 +91,7 @@ void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, Fram
     const FrontBelief belief = BelieveFront(sights, flush);
     if (belief.flush > kSurelyFlush && !edges.IsBesideOther()) return;
     setback = belief.flush > kMayBeFlush ? Setback{0.0, belief.root_mean_square_m} : belief.setback;
-    setback.sigma_m = std::max(kLeastSigma_m, setback.sigma_m);
+    setback.sigma_m = std::max(LeastSigma(views, frame), setback.sigma_m);
   } else if (edges.AreInPlane() && ShowsNoReveal(views, frame, grey)) {
     if (!edges.IsBesideOther()) return;
     setback = {0.0, kLeastSigma_m};
