@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <ostream>
 
 #include "core/atomic_file.h"
@@ -43,6 +44,26 @@ ReportTitle TitleOf(const ResultStore& store, const Study& study) {
   return title;
 }
 
+// Sums up rows, of which those of a cell must agree about what it is.
+class CheckedSummariser {
+ public:
+  explicit CheckedSummariser(const fs::path& file) : file_(file) {}
+
+  void Add(const TrialRecord& row) {
+    if (!first_ || row.cell != first_->cell) first_ = row;
+    if (row.part != first_->part || row.levels != first_->levels) {
+      throw InputError(file_, fmt::format("the rows of cell {} are not of one cell", row.cell));
+    }
+    summariser_.Add(row);
+  }
+  std::vector<CellSummary> Finish() { return summariser_.Finish(); }
+
+ private:
+  fs::path file_;
+  std::optional<TrialRecord> first_;  // Of its cell.
+  Summariser summariser_;
+};
+
 }  // namespace
 
 fs::path StoreFile(const fs::path& results) {
@@ -57,21 +78,34 @@ Study StudyOf(const ResultStore& store, const fs::path& file) {
                    Detectors());
 }
 
+void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const fs::path& file) {
+  const auto cell = static_cast<size_t>(row.cell);
+  if (cell < cells.size() && row.trial < cells[cell].repetitions) return;
+  throw InputError(file, fmt::format("has a row of trial {} of cell {}, which its study has not",
+                                     row.trial, row.cell));
+}
+
 std::vector<CellSummary> Summarise(const ResultStore& store) {
-  Summariser summariser;
+  CheckedSummariser summariser("results.sqlite");
   store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
   return summariser.Finish();
 }
 
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::path& folder) {
-  const Study study = StudyOf(store, folder / "results.sqlite");
-  std::vector<CellSummary> summaries = Summarise(store);
+  const fs::path file = folder / "results.sqlite";
+  const Study study = StudyOf(store, file);
+  const std::vector<Cell> cells = Cells(study);
+  CheckedSummariser summariser(file);
+  store.ForEachRow([&](const TrialRecord& row) {
+    RequireTrialOf(cells, row, file);
+    summariser.Add(row);
+  });
+  std::vector<CellSummary> summaries = summariser.Finish();
   WriteFileAtomically(folder / "study.yaml", Get(store.Metadata(), "study"));
   WriteFileAtomically(folder / "trials.csv", [&store](std::ostream& out) {
     WriteTrialsCsv([&store](const auto& visit) { store.ForEachRow(visit); }, out);
   });
   WriteFileAtomically(folder / "summary.csv", SummaryCsv(summaries));
-  const std::vector<Cell> cells = Cells(study);
   RowReports reports(study, cells);
   store.ForEachRow([&reports](const TrialRecord& row) { reports.Add(row); });
   WriteFileAtomically(folder / "summary.md",

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "experiments/detector_maker.h"
@@ -29,6 +30,10 @@ std::filesystem::path StoreFile(const std::filesystem::path& results);
 
 /// The resolved study of a store. Throws InputError if this program cannot read it.
 Study StudyOf(const ResultStore& store, const std::filesystem::path& file);
+
+/// Throws InputError if the study has no such trial.
+void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row,
+                    const std::filesystem::path& file);
 
 /// Summaries of all rows; holds the numbers of one cell at a time.
 std::vector<CellSummary> Summarise(const ResultStore& store);

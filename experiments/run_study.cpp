@@ -74,7 +74,10 @@ std::vector<TrialKey> Missing(const StudyRun& run, std::span<const Cell> cells,
   if (!IsAdaptive(run.study))
     return Without(run.shard.Of(AllTrials(cells)), store.FinishedTrials());
   TrialPlan plan(run.study, cells);
-  store.ForEachRow([&plan](const TrialRecord& row) { plan.Add(row); });
+  store.ForEachRow([&](const TrialRecord& row) {
+    RequireTrialOf(cells, row, StoreFile(run.out));
+    plan.Add(row);
+  });
   return plan.Next();
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "experiments/record_json.h"
@@ -84,6 +85,23 @@ SensorKind ParseSensor(const std::string& word) {
   throw std::runtime_error("unknown sensor " + word);
 }
 
+int ReadIndex(SqliteStatement& select) {
+  const int64_t index = select.ReadInteger();
+  if (index < 0 || index > std::numeric_limits<int>::max()) {
+    throw std::runtime_error(fmt::format("cell or trial {}", index));
+  }
+  return static_cast<int>(index);
+}
+
+// What all that works with rows relies on.
+void RequireSense(const Score& score) {
+  const bool finite = (!score.estimate || score.estimate->p_CO.allFinite()) &&
+                      (!score.truth_p_CO || score.truth_p_CO->allFinite());
+  if (!finite) throw std::runtime_error("a place that is not finite");
+  const bool found = score.outcome == Outcome::kHit || score.outcome == Outcome::kGross;
+  if (found && !score.CentroidError_C()) throw std::runtime_error("a hit without its error");
+}
+
 }  // namespace
 
 SqliteStatement PrepareInsert(SqliteDatabase& database) {
@@ -120,8 +138,8 @@ SqliteStatement PrepareSelect(SqliteDatabase& database, const std::string& condi
 
 TrialRecord ReadRow(SqliteStatement& select) {
   TrialRecord record;
-  record.cell = static_cast<int>(select.ReadInteger());
-  record.trial = static_cast<int>(select.ReadInteger());
+  record.cell = ReadIndex(select);
+  record.trial = ReadIndex(select);
   record.detector = select.ReadText();
   record.part = select.ReadText();
   record.sensor = ParseSensor(select.ReadText());
@@ -135,6 +153,7 @@ TrialRecord ReadRow(SqliteStatement& select) {
   record.score.detail = select.ReadText();
   record.score.estimate = ReadEstimate(select);
   record.score.truth_p_CO = ReadVector(select);
+  RequireSense(record.score);
   record.bound_C = ReadMatrix(select);
   record.stages = StageTimesFromJson(select.ReadText());
   return record;

@@ -15,6 +15,7 @@
 
 #include "core/input_error.h"
 #include "experiments/record_json.h"
+#include "experiments/result_files.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {
@@ -372,6 +373,42 @@ TEST_F(Store, DamagedStoresAreRefusedAndUntouched) {
   newer[63] = 99;
   WriteBytes(file_, newer);
   ExpectRefused(file_, "schema version 99");
+}
+
+TEST_F(Store, RowsThatCannotBeAreRefused) {
+  const auto complaint = [&](const std::string& change) -> std::string {
+    {
+      ResultStore store = ResultStore::Create(file_, {});
+      for (int trial = 0; trial < 3; ++trial) {
+        const TrialRecord row = RandomHit(0, trial);
+        store.AddTrial({&row, 1});
+      }
+    }
+    sqlite3* connection = nullptr;
+    EXPECT_EQ(sqlite3_open(file_.c_str(), &connection), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(connection, ("UPDATE trials SET " + change).c_str(), nullptr, nullptr,
+                           nullptr),
+              SQLITE_OK)
+        << change;
+    sqlite3_close(connection);
+    std::string text;
+    try {
+      Summarise(ResultStore::OpenReadOnly(file_));
+    } catch (const InputError& error) {
+      text = error.what();
+    }
+    fs::remove(file_);
+    return text;
+  };
+  EXPECT_EQ(complaint("detail = 'other'"), "");
+  EXPECT_THAT(complaint("trial = -7 WHERE trial = 1"), ::testing::HasSubstr("cell or trial -7"));
+  EXPECT_THAT(complaint("cell = 1 << 40 WHERE trial = 1"), ::testing::HasSubstr("cell or trial"));
+  EXPECT_THAT(complaint("estimate_x_m = 1e999"), ::testing::HasSubstr("not finite"));
+  EXPECT_THAT(complaint("truth_x_m = NULL, outcome = 'hit'"),
+              ::testing::HasSubstr("a hit without its error"));
+  EXPECT_THAT(complaint("outcome = 'great'"), ::testing::HasSubstr("unknown outcome"));
+  EXPECT_THAT(complaint("part = 'other' WHERE trial = 1"), ::testing::HasSubstr("not of one cell"));
+  EXPECT_THAT(complaint("levels = '{}' WHERE trial = 1"), ::testing::HasSubstr("not of one cell"));
 }
 
 TEST_F(Store, ARunThatCannotStartLeavesNothing) {
