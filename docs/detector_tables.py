@@ -7,7 +7,8 @@
 
 RMSE / bound of several cells is the root mean square of each trial's error over its own bound, so
 that near and far ones count alike. Its interval is a bootstrap over the trials (2,000 times, percentiles),
-that of a share is Clopper and Pearson's; both 95 %.
+that of a share is Clopper and Pearson's; both 95 %. Whether a share is below a limit is told by the
+one-sided bound.
 """
 import json
 import math
@@ -96,9 +97,9 @@ def bisect(rising, target):
     return 0.5 * (low + high)
 
 
-def clopper_pearson(k, n):
-    lower = 0.0 if k == 0 else bisect(lambda p: binomial_tail(n, k, p), 0.025)
-    upper = 1.0 if k == n else bisect(lambda p: binomial_tail(n, k + 1, p), 0.975)
+def clopper_pearson(k, n, tail):
+    lower = 0.0 if k == 0 else bisect(lambda p: binomial_tail(n, k, p), tail)
+    upper = 1.0 if k == n else bisect(lambda p: binomial_tail(n, k + 1, p), 1.0 - tail)
     return lower, upper
 
 
@@ -210,13 +211,14 @@ def covariances(trials):
 def goal_rows(trials, alarms):
     def share(what, limit, goal_is_least, chosen, is_counted):
         k, n = sum(map(is_counted, chosen)), len(chosen)
-        lower, upper = clopper_pearson(k, n)
+        lower, upper = clopper_pearson(k, n, 0.025 if goal_is_least else 0.05)
         met = lower >= limit if goal_is_least else upper <= limit
         missed = upper < limit if goal_is_least else lower > limit
         sign = "≥" if goal_is_least else "<"
         digits = 2 if goal_is_least else 3
         yield [what, f"{sign} {100.0 * limit:g} %", str(n), f"{100.0 * k / n:.{digits}f} %",
-               f"{100.0 * lower:.{digits}f} – {100.0 * upper:.{digits}f} %",
+               (f"{100.0 * lower:.{digits}f} – {100.0 * upper:.{digits}f} %" if goal_is_least
+                else f"up to {100.0 * upper:.{digits}f} %"),
                "met" if met else "missed" if missed else "undecided"]
 
     def ratio(what, limit, chosen):

@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 constexpr double kLength_px = 8.0;
 constexpr int kFewest = 3;
 constexpr int kMost = 40;
-constexpr int kFewestCoarse = 9;
+constexpr int kFewestCoarse = 30;
 
 // Upright box around a strip from `inside_px` on one side of the edge to `outside_px` on the other.
 cv::Rect BoxOf(const EdgeStrip& strip, double half_length_px, double inside_px, double outside_px) {

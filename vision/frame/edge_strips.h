@@ -27,7 +27,7 @@ struct EdgeStrips {
 
 /// Divides a side of the frame, as it is assumed, into strips about 8 px long, at most 40. They end
 /// `reach_px` before the side's ends, where other sides begin. If coarse, and there are at least
-/// nine, those are cut that are a multiple of three strips apart and alike at both ends.
+/// 30, those are cut that are a multiple of three strips apart and alike at both ends.
 EdgeStrips CutStrips(const CameraView& view, const FrameRectangle& frame,
                      const SideRequest& request);
 

@@ -12,9 +12,10 @@ constexpr double kDeepest_m = 0.20;
 constexpr double kNearest_m = -0.10;
 constexpr double kStep_m = 0.002;
 constexpr double kFrontSigma_m = 0.004;  // Rounded or chamfered edges.
-// What is seen may be the front edge of the opening or the rear one, or that of a pane between.
-constexpr double kThickest_m = 0.08;
-constexpr int kThicknesses = 8;
+// What is seen may be the front edge of the opening or the rear one, that of a pane between or of
+// the lining behind.
+constexpr double kThickest_m = 0.12;
+constexpr int kThicknesses = 12;
 // Of the evenly spread places within a step.
 const double kWithinStep_m = kThickest_m / kThicknesses / std::sqrt(12.0);
 constexpr double kOther = 0.05;

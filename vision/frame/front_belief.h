@@ -24,7 +24,7 @@ struct FrontBelief {
 /// What sights say of a frame's front, by Bayes. Before: flush with the given probability, or
 /// anywhere up to 20 cm behind; if it cannot be flush, the rectangle may be a blend of several
 /// edges, and the front up to 10 cm before it. A sight is of the front, or of an edge in the
-/// frame's thickness, anywhere up to 8 cm behind it but the same for all; one in twenty is of
+/// frame's thickness, anywhere up to 12 cm behind it but the same for all; one in twenty is of
 /// something else.
 FrontBelief BelieveFront(const std::vector<DepthSight>& sights, double prior_flush);
 
