@@ -29,8 +29,8 @@ TEST(FrontBelief, WithoutSightsItIsWhatItWasBefore) {
 TEST(FrontBelief, AnEdgeOfTheThicknessIsBehindTheFront) {
   const FrontBelief front = BelieveFront({{0.10, 0.002, false}}, 0.0);
   const FrontBelief thickness = BelieveFront({{0.10, 0.002, true}}, 0.0);
-  // In the mean half of 8 cm; what is of something else shares in both.
-  EXPECT_NEAR(front.setback.mean_m - thickness.setback.mean_m, 0.04, 0.005);
+  // In the mean half of 12 cm; what is of something else shares in both.
+  EXPECT_NEAR(front.setback.mean_m - thickness.setback.mean_m, 0.06, 0.005);
   EXPECT_GT(thickness.setback.sigma_m, front.setback.sigma_m);
   // Both edges of it share one thickness: two sights of it are no two opinions of it.
   const FrontBelief twice = BelieveFront({{0.10, 0.002, true}, {0.10, 0.002, true}}, 0.0);
