@@ -7,6 +7,7 @@
 
 #include "vision/rgbd/dark_cloud.h"
 #include "vision/rgbd/depth_registration.h"
+#include "vision/rgbd/frame_planes.h"
 #include "vision/rgbd/narf_key_points.h"
 
 namespace fenestra {
@@ -24,5 +25,10 @@ inline constexpr int kKeyPointPictureScale = 3;
 /// Key points as circles on the cloud's depth; the chosen four as a closed outline.
 cv::Mat3b DrawKeyPoints(const cv::Mat1f& depth_m, const std::vector<KeyPoint>& key_points,
                         const std::optional<std::array<int, 4>>& chosen);
+
+/// What was used of a depth image: the wall green, what is off its plane red, the frame's front
+/// yellow.
+cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
+                       const DepthPointReader& reader);
 
 }  // namespace fenestra

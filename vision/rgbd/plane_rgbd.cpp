@@ -7,7 +7,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
-#include "vision/frame/frame_depth.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
 #include "vision/rgbd/frame_paint.h"
@@ -15,6 +14,7 @@
 #include "vision/rgbd/linear_grey.h"
 #include "vision/rgbd/observation_check.h"
 #include "vision/rgbd/pictures.h"
+#include "vision/rgbd/seen_setback.h"
 #include "vision/rgbd/undistortion.h"
 
 namespace fenestra {
@@ -67,51 +67,6 @@ const RgbdObservation& RgbdPart(const Observation& observation) {
     throw InputError("observation", "a stereo observation was given to an RGB-D detector");
   }
   return *rgbd;
-}
-
-// The wall that was used green, what is off its plane red, the frame's front yellow.
-cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
-                       const DepthPointReader& reader) {
-  cv::Mat1f depth_m;
-  depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
-  cv::Mat3b picture;
-  DrawDepth(depth_m).convertTo(picture, CV_8U, 0.4);
-  const auto mark = [&](const DepthPoint& point, const cv::Vec3b& colour) {
-    const cv::Rect place =
-        cv::Rect(point.pixel.x - reader.columns() / 2, point.pixel.y - reader.rows() / 2,
-                 reader.columns(), reader.rows()) &
-        cv::Rect({0, 0}, picture.size());
-    picture(place).setTo(colour);
-  };
-  for (size_t i = 0; i < planes.points.wall.size(); ++i) {
-    mark(planes.points.wall[i],
-         planes.wall.is_inlier[i] ? cv::Vec3b(80, 200, 80) : cv::Vec3b(60, 60, 230));
-  }
-  for (const DepthPoint& point : planes.points.border) mark(point, {60, 220, 230});
-  return picture;
-}
-
-// The frame as the camera at `center` sees it, with its front moved from one setback behind the
-// wall to another.
-FrameRectangle Moved(const FrameRectangle& frame, const Eigen::Vector3d& center, double by_m) {
-  const double distance_m = -frame.R_LO.col(2).dot(frame.p_LO - center);
-  const double factor = (distance_m + by_m) / distance_m;
-  FrameRectangle moved = frame;
-  moved.p_LO = center + factor * (frame.p_LO - center);
-  moved.width_m *= factor;
-  moved.height_m *= factor;
-  moved.border_m *= factor;
-  return moved;
-}
-
-// What is not known of a setback, along the normal unless the fit has it, and across it.
-void AddSetback(const CameraView& view, bool is_fitted, const FramePlanes& planes, FrameFit& fit) {
-  const double depth_m = std::max(std::abs(planes.setback_m), planes.setback_sigma_m);
-  if (!(depth_m > 0.0)) return;
-  AddParallax(std::span(&view, 1), {.upright_m = depth_m, .level_m = depth_m}, fit);
-  if (is_fitted || planes.planes.size() > 1) return;
-  const Eigen::Vector3d off = planes.setback_sigma_m * fit.adjustment.frame.R_LO.col(2);
-  fit.adjustment.covariance.block<3, 3>(3, 3) += off * off.transpose();
 }
 
 }  // namespace
@@ -227,7 +182,7 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
   if (planes.setback_m != options_.setback_m) {
     const Eigen::Vector3d p_DK = calibration_.X_KD.inverse().translation();
     frame.outer_relief_m = {};
-    frame = WithHiddenSides(Moved(frame, p_DK, planes.setback_m - options_.setback_m), p_DK,
+    frame = WithHiddenSides(SetBack(frame, p_DK, planes.setback_m - options_.setback_m), p_DK,
                             planes.setback_m);
   }
   candidate.fitter.UsePlanes(planes.planes);

@@ -1,6 +1,7 @@
 #include "vision/rgbd/plane_seed.h"
 
 #include "vision/rgbd/frame_depth.h"
+#include "vision/rgbd/seen_setback.h"
 
 namespace fenestra {
 namespace {
@@ -51,29 +52,6 @@ PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
          .clarity = candidate.clarity});
   }
   return found;
-}
-
-FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3d& p_LC,
-                               double setback_m) {
-  FrameRectangle moved = frame;
-  if (!(setback_m > 0.0)) return moved;
-  const Eigen::Vector3d p_OC = frame.R_LO.transpose() * (p_LC - frame.p_LO);
-  const double share = setback_m / p_OC.z();  // Of the way from the front to the camera.
-  std::array<double, 4> reach_m = {};         // Of each side from the middle.
-  for (size_t i = 0; i < 4; ++i) {
-    const double sign = i < 2 ? 1.0 : -1.0;  // Top and right; bottom and left.
-    const bool level = i % 2 == 0;
-    const double at_m = 0.5 * (level ? frame.height_m : frame.width_m);
-    const double camera_m = sign * (level ? p_OC.y() : p_OC.x());
-    const bool is_hidden = camera_m > at_m;
-    reach_m[i] = is_hidden ? at_m + share * (camera_m - at_m) : at_m;
-    moved.outer_relief_m[i] = is_hidden ? setback_m : 0.0;
-  }
-  moved.height_m = reach_m[0] + reach_m[2];
-  moved.width_m = reach_m[1] + reach_m[3];
-  moved.p_LO += 0.5 * (reach_m[1] - reach_m[3]) * frame.R_LO.col(0) +
-                0.5 * (reach_m[0] - reach_m[2]) * frame.R_LO.col(1);
-  return moved;
 }
 
 }  // namespace fenestra

@@ -32,10 +32,4 @@ PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
                           const std::vector<DepthPoint>& points, const CameraModel& color,
                           const Pose& X_KD, const PlaneSeedSettings& settings);
 
-/// A frame whose sides all were taken to be seen in its front's plane, with those that its reveal
-/// hides from a camera at p_LC moved to where they are seen, the edge of the wall's face
-/// `setback_m` before the front.
-FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3d& p_LC,
-                               double setback_m);
-
 }  // namespace fenestra

@@ -4,6 +4,7 @@
 
 #include "tests/vision/rgbd/synthetic_kinect.h"
 #include "vision/rgbd/frame_depth.h"
+#include "vision/rgbd/seen_setback.h"
 
 namespace fenestra {
 namespace {
