@@ -16,7 +16,7 @@
 namespace fenestra::cli {
 namespace {
 
-struct CheckArguments {
+struct StudyCheckArguments {
   std::string study;
   std::vector<std::filesystem::path> plugins;
 };
@@ -27,7 +27,7 @@ struct ExplainArguments {
   int probes = 1;
 };
 
-void Check(const CheckArguments& arguments) {
+void Check(const StudyCheckArguments& arguments) {
   LoadPlugins(arguments.plugins);
   const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
   fmt::print("'{}' is sound: {} cells, {} trials.\n", study.name, CountCells(study),
@@ -79,7 +79,7 @@ void AddStudyCommand(Command program) {
       "Example:\n"
       "  fenestra study check my_study.yaml\n"
       "Exit codes: 0 sound, 2 faulty; each fault has its line and column.");
-  const auto arguments = std::make_shared<CheckArguments>();
+  const auto arguments = std::make_shared<StudyCheckArguments>();
   check.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
   AddPluginOption(check, arguments->plugins);
   check.Action([arguments] {

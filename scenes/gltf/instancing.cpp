@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Matrix4d;
 
-const tinygltf::Value* Attributes(const tinygltf::Node& node) {
+const tinygltf::Value* InstanceAttributes(const tinygltf::Node& node) {
   const tinygltf::Value* extension = Extension(node.extensions, "EXT_mesh_gpu_instancing");
   return extension == nullptr ? nullptr : Find(*extension, {"attributes"});
 }
@@ -60,7 +60,7 @@ std::vector<float> ReadAttribute(const Asset& asset, const tinygltf::Value& attr
 
 void CheckInstancing(const tinygltf::Model& model, FaultList& faults) {
   for (size_t i = 0; i < model.nodes.size(); ++i) {
-    const tinygltf::Value* attributes = Attributes(model.nodes[i]);
+    const tinygltf::Value* attributes = InstanceAttributes(model.nodes[i]);
     if (attributes == nullptr) continue;
     CheckNode(model, *attributes,
               fmt::format("/nodes/{}/extensions/EXT_mesh_gpu_instancing/attributes", i), faults);
@@ -68,13 +68,13 @@ void CheckInstancing(const tinygltf::Model& model, FaultList& faults) {
 }
 
 size_t InstanceCount(const Asset& asset, const tinygltf::Node& node) {
-  const tinygltf::Value* attributes = Attributes(node);
+  const tinygltf::Value* attributes = InstanceAttributes(node);
   if (attributes == nullptr) return 1;
   return AccessorOf(asset.model, attributes->Get(attributes->Keys().front())).count;
 }
 
 std::vector<Matrix4d> InstanceTransforms(const Asset& asset, const tinygltf::Node& node) {
-  const tinygltf::Value* attributes = Attributes(node);
+  const tinygltf::Value* attributes = InstanceAttributes(node);
   if (attributes == nullptr) return {Matrix4d::Identity()};
   const std::vector<float> translations = ReadAttribute(asset, *attributes, "TRANSLATION");
   const std::vector<float> rotations = ReadAttribute(asset, *attributes, "ROTATION");
