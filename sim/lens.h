@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "renderers/ray_caster.h"
+#include "renderers/render_types.h"
 #include "renderers/ray_grid.h"
 
 namespace fenestra {
