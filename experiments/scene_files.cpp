@@ -12,6 +12,7 @@
 #include "core/input_error.h"
 #include "experiments/truth_exr.h"
 #include "experiments/truth_json.h"
+#include "renderers/ray_caster.h"
 #include "scenes/tessellation.h"
 #include "sim/srgb.h"
 
