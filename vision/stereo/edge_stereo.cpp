@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/input_error.h"
+#include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
 #include "vision/stereo/stage_pictures.h"
