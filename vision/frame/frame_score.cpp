@@ -1,5 +1,7 @@
 #include "vision/frame/frame_score.h"
 
+#include "vision/frame/frame_border.h"
+
 namespace fenestra {
 namespace {
 
