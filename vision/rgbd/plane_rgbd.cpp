@@ -14,7 +14,7 @@
 #include "vision/rgbd/frame_planes.h"
 #include "vision/rgbd/linear_grey.h"
 #include "vision/rgbd/observation_check.h"
-#include "vision/rgbd/pictures.h"
+#include "vision/rgbd/plane_pictures.h"
 #include "vision/rgbd/seen_setback.h"
 #include "vision/rgbd/undistortion.h"
 
