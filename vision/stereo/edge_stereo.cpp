@@ -8,7 +8,7 @@
 #include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
-#include "vision/stereo/stage_pictures.h"
+#include "vision/stereo/rectified_pictures.h"
 
 namespace fenestra {
 namespace {
