@@ -16,8 +16,10 @@ namespace fenestra {
 
 struct FrameFitSettings {
   double min_contrast_dn;
-  double reach_px;          ///< Pixels up to here from an edge are used, unless another is nearer.
-  double far_px;            ///< The same away from the border, once the rectangle is known well.
+  double reach_px = 4.0;  ///< Pixels up to here from an edge are used, unless another is nearer.
+  /// The reach away from the border, once the rectangle is known well. Where light is even, the
+  /// level of the grey values beside an edge is told well enough so far from it.
+  double far_px = 8.0;
   double min_side_support;  ///< Share of an outer side's places with its edge.
   BorderSearch border;
   std::optional<SizePrior> size;  ///< Used in the last adjustment only.

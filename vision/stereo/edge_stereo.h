@@ -43,12 +43,18 @@ class EdgeStereoDetector : public Detector {
     FrameFit rough;
     double score;
   };
+  struct Finished {
+    FrameFit fit;
+    WindowEstimate estimate;
+  };
   std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                const EdgeSegments& right_segments,
                                const cv::Mat1b& right_image) const;
   std::optional<Miss> Objection(std::span<const CameraView> views, const FrameFit& fit) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
+  std::variant<Finished, Miss> Finish(std::span<const CameraView> views,
+                                      Candidate& candidate) const;
 
   EdgeStereoOptions options_;
   StereoCalibration calibration_;
