@@ -134,7 +134,7 @@ bool RunMissing(const StudyRun& run, std::span<const Cell> cells, ResultStore& s
 StudyResult RunStudy(const StudyRun& run) {
   const std::vector<Cell> cells = Cells(run.study);
   const std::vector<TrialKey> trials = run.shard.Of(AllTrials(cells));
-  const std::filesystem::path file = run.out / "results.sqlite";
+  const std::filesystem::path file = run.out / ResultStore::kFileName;
   CheckShard(run);
   run.detectors->Start(run.study);
   const FolderLock lock(run.out);

@@ -56,6 +56,9 @@ struct DetectorTally {
 /// cannot be written; the file is then as it was.
 class ResultStore {
  public:
+  /// What a store is called in a results folder.
+  static constexpr char kFileName[] = "results.sqlite";
+
   enum class IfExists { kRefuse, kReplace };
 
   /// Makes a fresh, empty store, which appears by rename: until then an older result stands, and a
