@@ -1,5 +1,7 @@
 #include "experiments/factors.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <numbers>
 
@@ -412,6 +414,21 @@ bool Concerns(FactorGroup group, SensorKind sensor) {
   if (group == FactorGroup::kStereo) return sensor == SensorKind::kStereo;
   if (group == FactorGroup::kRgbd) return sensor == SensorKind::kRgbd;
   return true;
+}
+
+std::string LevelsText(const FactorValues& levels, std::string_view is) {
+  std::string text;
+  for (const auto& [name, value] : levels) {
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", name, is, ToString(value));
+  }
+  return text;
+}
+
+std::string LevelText(const FactorValues& levels, const std::string& name) {
+  for (const auto& [level, value] : levels) {
+    if (level == name) return ToString(value);
+  }
+  return "";
 }
 
 }  // namespace fenestra
