@@ -124,7 +124,7 @@ std::string BoardText(const CalibrationBoard& board) {
                      board.corner_rows(), 1e3 * board.square_m, kind);
 }
 
-// What stereo matching needs: rotations to parallel rows, and the projections after them.
+// The rotations to parallel rows and the projections after them, which stereo matching needs.
 std::array<RosRectification, 2> RectificationOf(const StereoCalibration& calibration) {
   const auto matrix = [](const CameraModel& camera) {
     cv::Mat K;

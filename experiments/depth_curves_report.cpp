@@ -185,9 +185,9 @@ std::string ShadowTable(const StructuredLightOptions& options, const DepthCurves
 
 // The largest differences between the models.
 struct Agreement {
-  double share = 0.0;  ///< Of valid pixels.
+  double share = 0.0;  ///< Difference of the shares of valid pixels.
   std::string share_at = "nowhere";
-  double low_ratio = 1.0;  ///< Of noise, parametric : speckle, on white walls up to 60°.
+  double low_ratio = 1.0;  ///< Ratio of noise, parametric : speckle, on white walls up to 60°.
   double high_ratio = 1.0;
 };
 Agreement AgreementOf(const DepthCurves& p, const DepthCurves& s) {

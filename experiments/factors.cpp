@@ -371,7 +371,7 @@ void AddRgbdColor(Table& t) {
 
 struct GroupedTable {
   Table table;
-  std::vector<FactorGroup> groups;  // Of each factor of the table.
+  std::vector<FactorGroup> groups;  // One for each factor of the table.
 
   void Add(FactorGroup group, void (*add)(Table&)) {
     add(table);

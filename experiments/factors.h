@@ -11,7 +11,7 @@
 
 namespace fenestra {
 
-/// What a factor belongs to, which says where it has an effect.
+/// The group of a factor, which says where it has an effect.
 enum class FactorGroup {
   kViewpoint,  ///< Where the rig stands and looks.
   kScene,      ///< The window and the wall, in every kind of scene.

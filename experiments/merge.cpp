@@ -149,7 +149,7 @@ void CopyRows(const ShardResult& shard, ResultStore& joined) {
 
 void JoinStores(const std::vector<ShardResult>& shards, const fs::path& file) {
   const fs::path growing = file.string() + ".merging";
-  fs::remove(growing);  // Of a merge that was killed.
+  fs::remove(growing);  // Left by a merge that was killed.
   StoreMetadata metadata = shards.front().metadata;
   metadata["shard"] = Shard{}.ToString();
   {

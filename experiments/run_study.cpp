@@ -162,7 +162,7 @@ StudyResult RunStudy(const StudyRun& run) {
   complete = RunMissing(run, cells, store);
   result.stored = static_cast<int64_t>(store.FinishedTrials().size());
   if (!complete) return result;
-  result.trials = result.stored;  // Of a study that stops by itself known only now.
+  result.trials = result.stored;  // A study that stops by itself knows its trials only now.
   result.summaries = WriteResultFiles(store, run.out);
   return result;
 }

@@ -21,7 +21,7 @@ struct MeanAndVariance {
   double variance;
 };
 
-// Of two frames: half the variance of their difference, whatever pattern they share.
+// The temporal variance by two frames: half that of their difference, whatever pattern they share.
 MeanAndVariance Temporal(const FrameSet& set, const FrameReader& frames) {
   cv::Mat1d first;
   cv::Mat1d second;

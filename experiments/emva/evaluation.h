@@ -26,11 +26,11 @@ struct NonUniformity {
   double pixel;
 };
 
-/// What EMVA 1288 release 4.0 (linear) says of a camera.
+/// A camera's figures by EMVA 1288 release 4.0 (linear).
 struct Results {
   std::vector<TransferPoint> points;  ///< By exposure.
-  size_t saturation_point;  ///< Of the points: where σ_y² is largest, seen from the end.
-  size_t last_fit_point;    ///< The last with at most 70 % of the saturation's signal.
+  size_t saturation_point;  ///< Index of the point whose σ_y² is largest, seen from the end.
+  size_t last_fit_point;    ///< Index of the last with at most 70 % of the saturation's signal.
 
   double gain_dn_per_e;        ///< K
   double responsivity;         ///< R [DN per photon]

@@ -91,13 +91,13 @@ class DescriptorReader {
     std::string file;
     std::getline(stream >> std::ws, file);
     while (!file.empty() && (file.back() == '\r' || file.back() == ' ')) file.pop_back();
-    if (in_faulty_set_) return;  // That was reported.
+    if (in_faulty_set_) return;  // Its fault has been noted.
     if (series_.sets.empty()) return Fault("names a file before any exposure");
     std::replace(file.begin(), file.end(), '\\', '/');
     series_.sets.back().frames.push_back(file);
   }
 
-  // What the lines together lack.
+  // Notes what the lines together lack.
   void Check() {
     if (series_.size.empty()) Fault("has no line 'n bits width height'");
     std::map<std::pair<bool, double>, int> seen;

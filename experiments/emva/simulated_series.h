@@ -10,7 +10,7 @@ namespace fenestra::emva {
 struct SimulationOptions {
   cv::Size size{752, 480};
   int exposures = 50;  ///< Release 4.0 asks for at least 50.
-  int frames = 100;    ///< Of each stack for the spatial figures.
+  int frames = 100;    ///< Images in each stack for the spatial figures.
   double gain = 1.0;
   double wavelength_nm = 530.0;
   double quantum_efficiency = 0.524;  ///< At that wavelength.
@@ -29,7 +29,7 @@ Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& se
 FrameReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
                      const RandomStream& camera);
 
-/// What the evaluation should find: the sensor's own figures.
+/// The sensor's own figures, which the evaluation should find.
 struct PutIn {
   double gain_dn_per_e;
   double quantum_efficiency;

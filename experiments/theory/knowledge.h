@@ -7,7 +7,7 @@
 
 namespace fenestra {
 
-/// What an estimate knows of a frame besides its pictures.
+/// What an estimate knows of a window frame besides its images.
 struct Knowledge {
   /// Standard deviation of width and height around what is expected [m]; nullopt: not expected.
   std::optional<double> size_sigma_m = {};

@@ -12,7 +12,7 @@
 
 namespace fenestra {
 
-/// What the pixels of a pair would hold without noise, and their noise.
+/// The pixels of a pair as they would be without noise, and their noise.
 struct StereoPictures {
   StereoCalibration cameras;  ///< As they truly are.
   cv::Mat1f left_e;           ///< Photo-electrons of the exposure.

@@ -12,8 +12,8 @@
 
 namespace fenestra {
 
-/// What the observation of one trial tells of its target, from which the bound for every detector
-/// follows. See docs/theory.md.
+/// The information that the observation of one trial has on its target, from which the bound for
+/// every detector follows. See docs/theory.md.
 struct TrialInformation {
   SensorKind sensor;
   Eigen::MatrixXd fisher;  ///< Unknowns as in StereoInformation or RgbdInformation.
@@ -33,7 +33,7 @@ struct TargetOptions {
   double setback_m;  ///< Front of the frame behind the wall's face.
 };
 
-/// The same for an RGB-D observation that the sensor made at X_WB.
+/// The information of an RGB-D observation that the sensor made at X_WB.
 std::optional<TrialInformation> InformationOf(const StructuredLightSensor& sensor,
                                               const DepthTheory& theory,
                                               const RgbdObservation& observation,
@@ -46,8 +46,8 @@ std::optional<TrialInformation> InformationOf(const StructuredLightSensor& senso
 std::optional<Eigen::Matrix3d> BoundOf(const TrialInformation& information,
                                        const Knowledge& knowledge);
 
-/// What a detector knows: the calibration that the trial tells it, and the size that it expects, if
-/// its options expected_width_m and expected_size_sigma_m say so.
+/// A detector's prior knowledge: the calibration that the trial gives it, and the size that it
+/// expects, if its options expected_width_m and expected_size_sigma_m say so.
 Knowledge KnowledgeOf(const DetectorChoice& detector, const TrialInformation& information);
 
 }  // namespace fenestra
