@@ -29,6 +29,6 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
 
 /// The bound on the centroid's covariance [m²]; nullopt where there is none.
 std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
-                                           const Knowledge& knowledge);
+                                           const PriorKnowledge& knowledge);
 
 }  // namespace fenestra

@@ -17,7 +17,7 @@ namespace fenestra {
 struct TrialInformation {
   SensorKind sensor;
   Eigen::MatrixXd fisher;  ///< Unknowns as in StereoInformation or RgbdInformation.
-  /// How far the calibration that detectors are told may be from the truth; nullopt: not at all.
+  /// Covariance of the nominal calibration's error; nullopt: it is the truth.
   std::optional<PairMatrix> calibration;
 };
 
@@ -44,10 +44,11 @@ std::optional<TrialInformation> InformationOf(const StructuredLightSensor& senso
 /// The bound on the covariance of p_CO for an unbiased estimate with this knowledge [m²]; nullopt
 /// if the observation does not determine the centroid.
 std::optional<Eigen::Matrix3d> BoundOf(const TrialInformation& information,
-                                       const Knowledge& knowledge);
+                                       const PriorKnowledge& knowledge);
 
 /// A detector's prior knowledge: the calibration that the trial gives it, and the size that it
 /// expects, if its options expected_width_m and expected_size_sigma_m say so.
-Knowledge KnowledgeOf(const DetectorChoice& detector, const TrialInformation& information);
+PriorKnowledge PriorKnowledgeOf(const DetectorChoice& detector,
+                                const TrialInformation& information);
 
 }  // namespace fenestra
