@@ -24,9 +24,9 @@ void Validate(const SimulationOptions& options);
 /// names of their files.
 Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& sensor);
 
-/// Takes the frames with a simulated sensor: Poisson photons whose mean is the same in all pixels.
-/// Each frame's noise belongs to its set and number.
-FrameReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
+/// Takes the images with a simulated sensor: Poisson photons whose mean is the same in all pixels.
+/// Each image's noise belongs to its set and number.
+ImageReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
                      const RandomStream& camera);
 
 /// The sensor's own figures, which the evaluation should find.
@@ -43,9 +43,9 @@ struct PutIn {
 };
 PutIn PutInBy(const SimulationOptions& options, const ImageSensorOptions& sensor);
 
-/// Writes all frames (PNG, of 8 bits or 16) and, at last, the descriptor emva1288.txt into the
+/// Writes all images (PNG, of 8 bits or 16) and, at last, the descriptor emva1288.txt into the
 /// folder. Returns the descriptor's path.
 std::filesystem::path WriteSeries(const std::filesystem::path& folder, const Series& series,
-                                  const FrameReader& frames);
+                                  const ImageReader& images);
 
 }  // namespace fenestra::emva
