@@ -65,14 +65,6 @@ Ratio WithInterval(double value, std::vector<double> resampled) {
   return {value, {SampleQuantile(resampled, 0.05), SampleQuantile(resampled, 0.95)}};
 }
 
-std::string TextOf(const FactorValues& levels) {
-  std::string text;
-  for (const auto& [name, value] : levels) {
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, ToString(value));
-  }
-  return text;
-}
-
 }  // namespace
 
 PairedRatios RatiosOf(std::span<const std::vector<ErrorPair>> cells, const RandomStream& stream) {
@@ -127,7 +119,7 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
     const std::string level = ToString(at->second);
     rest.erase(at);
     const std::string key =
-        fmt::format("{}/{}/{}/{}", row.part, ToString(row.sensor), row.detector, TextOf(rest));
+        fmt::format("{}/{}/{}/{}", row.part, ToString(row.sensor), row.detector, LevelsText(rest));
     auto& group = groups[key];
     if (group.empty()) order.push_back(key);
     auto cell = std::find_if(group.begin(), group.end(),

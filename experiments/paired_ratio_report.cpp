@@ -15,14 +15,6 @@ std::string CellText(const Ratio& ratio) {
                      ratio.interval90.upper);
 }
 
-std::string TextOf(const FactorValues& levels) {
-  std::string text;
-  for (const auto& [name, value] : levels) {
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, ToString(value));
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string PairedRatioTable(std::span<const PairedCells> cells, const std::string& factor,
@@ -45,7 +37,7 @@ std::string PairedRatioTable(std::span<const PairedCells> cells, const std::stri
     std::vector<std::vector<ErrorPair>> pooled;
     while (end < cells.size() && cells[end].part == first.part &&
            cells[end].detector == first.detector && cells[end].level == first.level) {
-      add(cells[end], TextOf(cells[end].levels), {&cells[end].pairs, 1}, end);
+      add(cells[end], LevelsText(cells[end].levels), {&cells[end].pairs, 1}, end);
       pooled.push_back(cells[end++].pairs);
     }
     if (pooled.size() > 1) add(first, "all, geometric mean", pooled, cells.size() + begin);
