@@ -1,26 +1,29 @@
 #pragma once
 
-#include "experiments/sqlite_database.h"
+#include <SQLiteCpp/SQLiteCpp.h>
+
 #include "experiments/store.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
 
 /// A TrialRecord to and from a row of the table `trials`, a RunEntry to and from one of `runs`; the
-/// column order is this file's secret.
+/// column order is this file's secret. Doubles keep their bits; NaN fails a check. Errors of SQLite
+/// are thrown as they are, SQLite::Exception.
 
-SqliteStatement PrepareInsert(SqliteDatabase& database);
+SQLite::Statement PrepareInsert(const SQLite::Database& database);
 /// Binds and runs the statement of PrepareInsert.
-void InsertRow(SqliteStatement& insert, const TrialRecord& record);
+void InsertRow(SQLite::Statement& insert, const TrialRecord& record);
 
 /// Rows ordered by (cell, trial, detector); `condition` such as "WHERE cell = ?".
-SqliteStatement PrepareSelect(SqliteDatabase& database, const std::string& condition = "");
+SQLite::Statement PrepareSelect(const SQLite::Database& database,
+                                const std::string& condition = "");
 /// The current row. Throws std::runtime_error for a text that this program does not write.
-TrialRecord ReadRow(SqliteStatement& select);
+TrialRecord ReadRow(const SQLite::Statement& select);
 
-SqliteStatement PrepareInsertRun(SqliteDatabase& database);
-void InsertRun(SqliteStatement& insert, const RunEntry& run);
-SqliteStatement PrepareSelectRuns(SqliteDatabase& database);
-RunEntry ReadRun(SqliteStatement& select);
+SQLite::Statement PrepareInsertRun(const SQLite::Database& database);
+void InsertRun(SQLite::Statement& insert, const RunEntry& run);
+SQLite::Statement PrepareSelectRuns(const SQLite::Database& database);
+RunEntry ReadRun(const SQLite::Statement& select);
 
 }  // namespace fenestra
