@@ -11,6 +11,12 @@ namespace fenestra {
 /// Corners in the image, clockwise as seen: top left, top right, bottom right, bottom left.
 using Quadrilateral = std::array<Eigen::Vector2d, 4>;
 
+/// a × b [px²]; positive where a turns clockwise, as seen, into b.
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
+/// Whether it turns clockwise at every corner.
+bool IsConvex(const Quadrilateral& quadrilateral);
+
 /// The convex quadrilateral that a closed contour follows. Its four sides are lines fitted to the
 /// contour's points (Huber's loss; the ends of each side left out, where the other side pulls), its
 /// corners their intersections, so corners have sub-pixel resolution. Which points belong to which
