@@ -50,8 +50,8 @@ class FrameFitter {
   ///   3. each outer side with a relief of its own, such as the wall's face or a sill;
   ///   4. all in one plane, but only to 0.7 px.
   ///
-  /// With two views, it then estimates how far the frame's front is behind the fitted rectangle
-  /// (frame_depth.h). It does not do so if planes were measured by other means.
+  /// It then estimates how far the frame's front is behind the fitted rectangle, by the parallax
+  /// between two views (frame_depth.h), unless planes were measured by other means.
   ///
   /// Miss: "no_edges", "unsupported_side".
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);
