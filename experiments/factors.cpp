@@ -1,7 +1,5 @@
 #include "experiments/factors.h"
 
-#include <array>
-
 #include "core/check.h"
 #include "core/pose.h"
 #include "experiments/facade_factors.h"
@@ -16,9 +14,7 @@ constexpr double kMicro = 1e-6;
 constexpr double kPercent = 1e-2;
 
 // The field of the settings that a factor stands for.
-// clang-format off
-#define FIELD(path) [](TrialSettings& s) -> auto& { return s.path; }
-// clang-format on
+#define FIELD(path) FENESTRA_FIELD(path)
 
 void AddViewpoint(Table& t) {
   t.Number("distance_m", FIELD(viewpoint.distance_m), {0.1, 100.0},
@@ -101,31 +97,19 @@ void AddStereoCameras(Table& t) {
           "Rays through a pixel with more in it than one edge: 16, 64 or 256; 4: as elsewhere.");
 }
 
-void AddMotion(Table& t, const std::string& sensor, RigMotion& (*of)(TrialSettings&)) {
-  const std::array<const char*, 3> directions = {"right", "down", "forward"};
-  for (size_t axis = 0; axis < directions.size(); ++axis) {
-    t.Number(
-        sensor + "_speed_" + directions[axis] + "_m_s",
-        [of, axis](TrialSettings& s) -> double& {
-          return of(s).velocity_B[static_cast<int>(axis)];
-        },
-        {-100.0, 100.0}, "Of the rig, along its own axis.");
-  }
-  struct Turn {
-    const char* name;
-    const char* description;
-  };
-  const std::array<Turn, 3> turns = {Turn{"pitch", "Turn of the rig upwards."},
-                                     Turn{"yaw", "Turn of the rig to the right."},
-                                     Turn{"roll", "Turn of the rig clockwise."}};
-  for (size_t axis = 0; axis < turns.size(); ++axis) {
-    t.Number(
-        sensor + "_" + turns[axis].name + "_rate_deg_s",
-        [of, axis](TrialSettings& s) -> double& {
-          return of(s).angular_velocity_B[static_cast<int>(axis)];
-        },
-        {-2000.0, 2000.0, kDegree}, turns[axis].description);
-  }
+void AddMotion(Table& t, const std::string& sensor, Table::Field<RigMotion> of) {
+  const std::string speed = "Of the rig, along its own axis.";
+  ParameterTable<RigMotion> motion;
+  motion.Number(sensor + "_speed_right_m_s", FIELD(velocity_B.x()), {-100.0, 100.0}, speed)
+      .Number(sensor + "_speed_down_m_s", FIELD(velocity_B.y()), {-100.0, 100.0}, speed)
+      .Number(sensor + "_speed_forward_m_s", FIELD(velocity_B.z()), {-100.0, 100.0}, speed)
+      .Number(sensor + "_pitch_rate_deg_s", FIELD(angular_velocity_B.x()),
+              {-2000.0, 2000.0, kDegree}, "Turn of the rig upwards.")
+      .Number(sensor + "_yaw_rate_deg_s", FIELD(angular_velocity_B.y()), {-2000.0, 2000.0, kDegree},
+              "Turn of the rig to the right.")
+      .Number(sensor + "_roll_rate_deg_s", FIELD(angular_velocity_B.z()),
+              {-2000.0, 2000.0, kDegree}, "Turn of the rig clockwise.");
+  t.Adopt<RigMotion>(motion, of);
 }
 
 void AddStereoRig(Table& t) {

@@ -61,8 +61,7 @@ struct WindowPrior {
 /// "expected_"; colour for RGB-D sensors, grey values for stereo ones. To be adopted by the table
 /// of a detector:
 ///
-///     table.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo),
-///                              [](Options& o) -> WindowPrior& { return o.prior; });
+///     table.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
 ParameterTable<WindowPrior> PriorParameters(SensorKind sensor);
 
 /// Whether an option of this name says what is known beforehand.
