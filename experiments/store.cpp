@@ -1,13 +1,12 @@
 #include "experiments/store.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <fstream>
 #include <mutex>
 
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_error.h"
 #include "experiments/sqlite_database.h"
@@ -75,11 +74,6 @@ void WriteEmptyStore(const fs::path& file, const StoreMetadata& metadata) {
   for (const auto& [key, value] : metadata) insert.Bind(key).Bind(value).Run();
   insert.Bind("schema_version").Bind(std::to_string(kStoreSchemaVersion)).Run();
   transaction.Commit();
-}
-
-fs::path TemporaryBeside(const fs::path& file) {
-  static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
-  return file.string() + fmt::format(".tmp{}-{}", getpid(), serial++);
 }
 
 }  // namespace
