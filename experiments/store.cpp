@@ -3,13 +3,12 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <fstream>
 #include <mutex>
 
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_error.h"
 #include "experiments/store_rows.h"
@@ -96,11 +95,6 @@ void WriteEmptyStore(const fs::path& file, const StoreMetadata& metadata) {
     insert.reset();
   }
   transaction.commit();
-}
-
-fs::path TemporaryBeside(const fs::path& file) {
-  static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
-  return file.string() + fmt::format(".tmp{}-{}", getpid(), serial++);
 }
 
 }  // namespace

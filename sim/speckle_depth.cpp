@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/input_error.h"
 #include "sim/missing_return.h"
 
 namespace fenestra {
@@ -24,7 +25,7 @@ CameraModel ScaledUp(const CameraModel& depth, int scale) {
 SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
                            const CameraModel& depth, int scale, double baseline_m,
                            const DisparityRange& range, const RollingShutter& shutter)
-    : infrared_((Validate(infrared), infrared)),
+    : infrared_(Validated(infrared)),
       matching_(matching),
       range_(range),
       p_CP_(baseline_m, 0.0, 0.0),

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/demands.h"
+#include "core/input_error.h"
 #include "core/random/random_pose.h"
 
 namespace fenestra {
@@ -142,7 +143,7 @@ void StereoRig::Camera::SetSensor(const ImageSensorOptions& options) {
 }
 
 StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       cameras_{.left = BuiltCamera(options, rig.Child("left")),
                .right = BuiltCamera(options, rig.Child("right")),
                .X_RL = {}},
