@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "scenes/gltf/accessors.h"
+#include "scenes/gltf/document.h"
 #include "scenes/gltf/values.h"
 
 namespace fenestra::gltf {
@@ -34,10 +35,10 @@ bool IsAllowed(const std::string& name, const tinygltf::Accessor& accessor) {
 }
 
 void CheckNode(const tinygltf::Model& model, const tinygltf::Value& attributes,
-               const std::string& at, FaultList& faults) {
+               const std::string& at, Faults& faults) {
   const size_t count = AccessorOf(model, attributes.Get(attributes.Keys().front())).count;
   for (const std::string& name : attributes.Keys()) {
-    const std::string pointer = at + "/" + PointerToken(name);
+    const std::string pointer = at + MemberPointer(name);
     const tinygltf::Accessor& accessor = AccessorOf(model, attributes.Get(name));
     if (!IsAllowed(name, accessor)) {
       faults.Add(pointer,
@@ -58,7 +59,7 @@ std::vector<float> ReadAttribute(const Asset& asset, const tinygltf::Value& attr
 
 }  // namespace
 
-void CheckInstancing(const tinygltf::Model& model, FaultList& faults) {
+void CheckInstancing(const tinygltf::Model& model, Faults& faults) {
   for (size_t i = 0; i < model.nodes.size(); ++i) {
     const tinygltf::Value* attributes = Attributes(model.nodes[i]);
     if (attributes == nullptr) continue;

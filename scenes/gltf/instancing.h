@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/faults.h"
 #include "scenes/gltf/asset.h"
-#include "scenes/gltf/fault_list.h"
 
 namespace fenestra::gltf {
 
@@ -12,7 +12,7 @@ namespace fenestra::gltf {
 /// TRANSLATION, ROTATION and SCALE in the node's axes.
 
 /// That their types are the allowed ones and that they are equally long.
-void CheckInstancing(const tinygltf::Model& model, FaultList& faults);
+void CheckInstancing(const tinygltf::Model& model, Faults& faults);
 
 /// 1 without the extension; nothing is read for it.
 size_t InstanceCount(const Asset& asset, const tinygltf::Node& node);
