@@ -1,4 +1,4 @@
-#include "scenes/facade_options.h"
+#include "scenes/facade_check.h"
 
 #include <fmt/format.h>
 
@@ -206,11 +206,6 @@ void CheckCovers(const FacadeOptions& o, Faults& faults) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& WallFinishNames() {
-  static const std::vector<std::string> names = {"plaster", "brick", "concrete", "cladding"};
-  return names;
-}
 
 void Validate(const FacadeOptions& options) {
   Faults faults("facade");
