@@ -94,7 +94,7 @@ bool YamlReader::CheckKeys(const YAML::Node& node, const std::string& what,
     AddFault(node, fmt::format("{} must be a mapping (key: value), not {}", what, Describe(node)));
     return false;
   }
-  const size_t faults_before = fault_count();
+  const size_t before = fault_count();
   std::set<std::string> seen;
   for (const auto& entry : node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : Describe(entry.first);
@@ -108,7 +108,7 @@ bool YamlReader::CheckKeys(const YAML::Node& node, const std::string& what,
       AddFault(entry.first, fmt::format("unknown key '{}' in {}.{}", key, what, hint));
     }
   }
-  return fault_count() == faults_before;
+  return fault_count() == before;
 }
 
 std::optional<double> YamlReader::Number(const YAML::Node& node, const std::string& what) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/faults.h"
@@ -30,6 +31,11 @@ class YamlReader {
   void AddFault(const YAML::Node& at, const std::string& message);
   /// See Faults::count.
   size_t fault_count() const { return faults_.count(); }
+  /// `value`, or nullopt if a fault was noted after there were `count`.
+  template <typename T>
+  std::optional<T> IfSoundSince(size_t count, T value) const {
+    return fault_count() == count ? std::optional<T>(std::move(value)) : std::nullopt;
+  }
   void ThrowIfFaulty();
 
   /// Notes a fault unless `node` is a mapping whose keys are unique and all among `allowed`.
