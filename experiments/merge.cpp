@@ -102,13 +102,6 @@ void CheckTrials(const std::vector<ShardResult>& shards, std::span<const TrialKe
   faults.ThrowIfAny();
 }
 
-void Check(const std::vector<ShardResult>& shards) {
-  CheckIdentity(shards);
-  CheckDivision(shards);
-  const Study study = StudyOf(shards.front().store, shards.front().file);
-  CheckTrials(shards, AllTrials(Cells(study)));
-}
-
 // Throws if `file` is the result of another study.
 void CheckMayReplace(const fs::path& file, const ShardResult& shard) {
   if (!fs::exists(file)) return;
@@ -167,7 +160,11 @@ void CopyPictures(const std::vector<ShardResult>& shards, const fs::path& out) {
 std::vector<CellSummary> MergeShards(const Merge& merge) {
   if (merge.shards.empty()) throw InputError("", "there are no shards to merge");
   const std::vector<ShardResult> shards = OpenAll(merge.shards);
-  Check(shards);
+  CheckIdentity(shards);
+  CheckDivision(shards);
+  const Study study = StudyOf(shards.front().store, shards.front().file);
+  const std::vector<Cell> cells = Cells(study);
+  CheckTrials(shards, AllTrials(cells));
   const FolderLock lock(merge.out);
   const fs::path file = merge.out / "results.sqlite";
   for (const ShardResult& shard : shards) {
@@ -183,7 +180,7 @@ std::vector<CellSummary> MergeShards(const Merge& merge) {
   } catch (const fs::filesystem_error& error) {
     throw InputError(merge.out, error.what());
   }
-  return WriteResultFiles(ResultStore::OpenReadOnly(file), merge.out);
+  return WriteResultFiles(ResultStore::OpenReadOnly(file), study, cells, merge.out);
 }
 
 }  // namespace fenestra
