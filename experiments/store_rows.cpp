@@ -78,11 +78,11 @@ std::optional<WindowEstimate> ReadEstimate(SqliteStatement& select) {
   return estimate;
 }
 
-SensorKind ParseSensor(const std::string& word) {
-  for (const SensorKind sensor : {SensorKind::kStereo, SensorKind::kRgbd}) {
-    if (word == ToString(sensor)) return sensor;
-  }
-  throw std::runtime_error("unknown sensor " + word);
+SensorKind ReadSensor(SqliteStatement& select) {
+  const std::string word = select.ReadText();
+  const auto sensor = ParseSensorKind(word);
+  if (!sensor) throw std::runtime_error("unknown sensor " + word);
+  return *sensor;
 }
 
 int ReadIndex(SqliteStatement& select) {
@@ -142,7 +142,7 @@ TrialRecord ReadRow(SqliteStatement& select) {
   record.trial = ReadIndex(select);
   record.detector = select.ReadText();
   record.part = select.ReadText();
-  record.sensor = ParseSensor(select.ReadText());
+  record.sensor = ReadSensor(select);
   record.levels = FactorsFromJson(select.ReadText());
   record.drawn = FactorsFromJson(select.ReadText());
   const std::string outcome = select.ReadText();
