@@ -1,9 +1,9 @@
 #include "experiments/factors.h"
 
 #include <array>
-#include <numbers>
 
 #include "core/check.h"
+#include "core/pose.h"
 #include "experiments/facade_factors.h"
 
 namespace fenestra {
@@ -11,7 +11,6 @@ namespace {
 
 using Table = ParameterTable<TrialSettings>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilli = 1e-3;
 constexpr double kMicro = 1e-6;
 constexpr double kPercent = 1e-2;
