@@ -14,7 +14,7 @@ enum class CalibrationSource {
   kPerturbed,  ///< The true rig with a random error of the right camera's pose.
   kBoards,     ///< Calibrated with pictures of a board: intrinsics, extrinsics, errors and all.
                ///< These pictures have noise even if the rig's options leave it out.
-  kStale,      ///< The same, but since then the right camera has been displaced.
+  kStale,      ///< Calibrated with boards before the right camera was displaced.
   kDesign,     ///< The rig as designed: never calibrated.
 };
 

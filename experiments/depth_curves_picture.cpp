@@ -10,7 +10,7 @@ namespace {
 
 using Points = std::vector<cv::Point2d>;
 
-// Of six plots, two rows of three.
+// The place of a plot among six, in two rows of three.
 cv::Rect AreaOf(int column, int row) {
   return {column * 600, row * 450, 600, 450};
 }

@@ -11,7 +11,7 @@ namespace fenestra {
 
 inline const std::vector<std::string> kProgramKeys{
     "name", "label", "command", "sensor", "options", "time_limit_s", "start_limit_s"};
-/// The longest of the two limits.
+/// No time limit may be longer.
 inline constexpr double kLongestLimit_s = 3600.0;
 
 /// Reads a detector that is a program of the user's own:
@@ -26,16 +26,16 @@ inline constexpr double kLongestLimit_s = 3600.0;
 /// Faults are noted in the reader; the result is nullopt if there are any.
 std::optional<DetectorChoice> ReadExternalDetector(YamlReader& reader, const YAML::Node& node);
 
-/// Its command, a list of words: false where a fault was noted.
+/// Reads a program's command, a list of words; false where a fault was noted.
 bool ReadCommand(YamlReader& reader, const YAML::Node& node, std::vector<std::string>& words);
 
-/// A value of one of its options: true and false are switches, numbers numbers, all else and all
-/// that is in quotes texts.
+/// Reads the value of a program's option: true and false are switches, numbers are numbers, and
+/// everything else, as well as everything in quotes, is text.
 std::optional<ParameterValue> ReadFreeValue(YamlReader& reader, const YAML::Node& node,
                                             const std::string& name);
 
-/// What a detector that Fenestra knows by name says of its process: `isolate: true` or false, and
-/// then the two limits. Without `isolate` it is as `isolate_by_default` says.
+/// The process of a detector that Fenestra knows by name: `isolate: true` or false, and then the
+/// two limits. Without `isolate`, `isolate_by_default` decides.
 struct GivenProcess {
   std::optional<DetectorProcess> process;
   bool good = true;

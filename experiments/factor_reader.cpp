@@ -42,7 +42,7 @@ class SettingReader {
     for (int64_t i = 0; i <= *intervals; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(*intervals);
       double level = *from + share * (*to - *from);
-      if (std::abs(level) < negligible) level = 0.0;  // What -0.3 + 3 · 0.1 was meant to be.
+      if (std::abs(level) < negligible) level = 0.0;  // -0.3 + 3 · 0.1 was meant to be 0.
       levels.emplace_back(RoundTo12Digits(level));
     }
     for (const ParameterValue& level : levels) {

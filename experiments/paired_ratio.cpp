@@ -72,14 +72,6 @@ std::string CellText(const Ratio& ratio) {
                      ratio.interval90.upper);
 }
 
-std::string TextOf(const FactorValues& levels) {
-  std::string text;
-  for (const auto& [name, value] : levels) {
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, ToString(value));
-  }
-  return text;
-}
-
 }  // namespace
 
 PairedRatios RatiosOf(std::span<const std::vector<ErrorPair>> cells, const RandomStream& stream) {
@@ -134,7 +126,7 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
     const std::string level = ToString(at->second);
     rest.erase(at);
     const std::string key =
-        fmt::format("{}/{}/{}/{}", row.part, ToString(row.sensor), row.detector, TextOf(rest));
+        fmt::format("{}/{}/{}/{}", row.part, ToString(row.sensor), row.detector, LevelsText(rest));
     auto& group = groups[key];
     if (group.empty()) order.push_back(key);
     auto cell = std::find_if(group.begin(), group.end(),
@@ -201,7 +193,7 @@ std::string PairedRatioTable(std::span<const PairedCells> cells, const std::stri
     std::vector<std::vector<ErrorPair>> pooled;
     while (end < cells.size() && cells[end].part == first.part &&
            cells[end].detector == first.detector && cells[end].level == first.level) {
-      add(cells[end], TextOf(cells[end].levels), {&cells[end].pairs, 1}, end);
+      add(cells[end], LevelsText(cells[end].levels), {&cells[end].pairs, 1}, end);
       pooled.push_back(cells[end++].pairs);
     }
     if (pooled.size() > 1) add(first, "all, geometric mean", pooled, cells.size() + begin);

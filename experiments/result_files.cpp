@@ -67,7 +67,7 @@ class CheckedSummariser {
 }  // namespace
 
 fs::path StoreFile(const fs::path& results) {
-  return fs::is_directory(results) ? results / "results.sqlite" : results;
+  return fs::is_directory(results) ? results / ResultStore::kFileName : results;
 }
 
 Study StudyOf(const ResultStore& store, const fs::path& file) {
@@ -86,14 +86,14 @@ void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const f
 }
 
 std::vector<CellSummary> Summarise(const ResultStore& store) {
-  CheckedSummariser summariser("results.sqlite");
+  CheckedSummariser summariser(ResultStore::kFileName);
   store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
   return summariser.Finish();
 }
 
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
                                           std::span<const Cell> cells, const fs::path& folder) {
-  const fs::path file = folder / "results.sqlite";
+  const fs::path file = folder / ResultStore::kFileName;
   CheckedSummariser summariser(file);
   store.ForEachRow([&](const TrialRecord& row) {
     RequireTrialOf(cells, row, file);

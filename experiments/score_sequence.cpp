@@ -126,7 +126,7 @@ MadeDetections ReadDetections(const std::string& label, const std::filesystem::p
 
 std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
   const auto trials = TryAll(run);
-  ResultStore store = ResultStore::Create(run.out / "results.sqlite", MetadataOf(run),
+  ResultStore store = ResultStore::Create(run.out / ResultStore::kFileName, MetadataOf(run),
                                           ResultStore::IfExists::kReplace);
   for (const auto& rows : trials) store.AddTrial(rows);
   const std::vector<TrialRecord> records = store.Rows();

@@ -14,7 +14,7 @@
 
 namespace fenestra {
 
-/// What a store says of itself: the study as written and as resolved, version, seed, libraries.
+/// A store's description of itself: the study as written and as resolved, version, seed, libraries.
 /// Free keys; "schema_version" is written by the store.
 using StoreMetadata = std::map<std::string, std::string>;
 
@@ -44,7 +44,7 @@ struct DetectorTally {
 ///
 /// Everything else that a report shows is derived from these rows alone.
 ///
-/// What is in the file at any time: whole trials only. Trials are written in transactions with
+/// The file holds whole trials only, at any time. Trials are written in transactions with
 /// SQLite's rollback journal: a run that is killed keeps every trial whose AddTrials has returned,
 /// and what was being written is rolled back when the file is opened again. (Not a write-ahead log:
 /// that keeps rows in a second file and does not work on network file systems.) synchronous =
@@ -56,6 +56,9 @@ struct DetectorTally {
 /// cannot be written; the file is then as it was.
 class ResultStore {
  public:
+  /// Name of a store in a results folder.
+  static constexpr char kFileName[] = "results.sqlite";
+
   enum class IfExists { kRefuse, kReplace };
 
   /// Makes a fresh, empty store, which appears by rename: until then an older result stands, and a

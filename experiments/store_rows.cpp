@@ -93,7 +93,7 @@ int ReadIndex(SqliteStatement& select) {
   return static_cast<int>(index);
 }
 
-// What all that works with rows relies on.
+// Checks what everything that works with rows relies on.
 void RequireSense(const Score& score) {
   const bool finite = (!score.estimate || score.estimate->p_CO.allFinite()) &&
                       (!score.truth_p_CO || score.truth_p_CO->allFinite());

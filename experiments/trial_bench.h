@@ -17,17 +17,17 @@ namespace fenestra {
 /// One trial up to the point where detectors take over.
 struct SimulatedTrial {
   Trial trial;
-  SensorCalibration calibration;  ///< What detectors are told.
+  SensorCalibration calibration;  ///< The calibration that detectors are given.
   Observation observation;
   GroundTruth truth;
-  /// What the observation tells of the target; nullopt where theory has no word for it.
+  /// The information of the observation on the target; nullopt where theory gives none.
   std::optional<TrialInformation> information{};
 };
 
-/// The sensor of a trial as it truly is, of which a calibration tells.
+/// The sensor of a trial as it truly is; a calibration is an estimate of it.
 struct TrueSensor {
   SensorCalibration cameras;
-  Eigen::Vector3d velocity_W;  ///< Of the scored camera's origin, in the world [m/s].
+  Eigen::Vector3d velocity_W;  ///< Velocity of the scored camera's origin in the world [m/s].
 };
 
 /// One detector's attempt at a simulated trial.

@@ -122,13 +122,9 @@ void AddRegressions(const std::map<std::string, std::vector<SelectedRow>>& by_de
   }
 }
 
-std::string LevelsText(const TrialRecord& row) {
-  std::vector<std::string> levels;
-  for (const auto& [name, value] : row.levels) {
-    levels.push_back(fmt::format("{} = {}", name, ToString(value)));
-  }
-  return fmt::format("cell {} ({}{}{})", row.cell, row.part, levels.empty() ? "" : ", ",
-                     fmt::join(levels, ", "));
+std::string CellText(const TrialRecord& row) {
+  return fmt::format("cell {} ({}{}{})", row.cell, row.part, row.levels.empty() ? "" : ", ",
+                     LevelsText(row.levels, " = "));
 }
 
 std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
@@ -138,7 +134,7 @@ std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
     if (!selection.Matches(*row.row, bound.where)) continue;
     Task& task = cells[bound.in_each_cell ? row.row->cell : 0];
     task.rows.push_back(row);
-    if (bound.in_each_cell) task.cell = LevelsText(*row.row);
+    if (bound.in_each_cell) task.cell = CellText(*row.row);
   }
   std::vector<Task> tasks;
   for (auto& [cell, task] : cells) {

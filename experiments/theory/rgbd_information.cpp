@@ -56,7 +56,7 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
 }
 
 std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
-                                         const Knowledge& knowledge) {
+                                         const PriorKnowledge& knowledge) {
   Eigen::MatrixXd known = WithSizePrior(information, knowledge);
   if (knowledge.wall_sigma_m) {
     known(kWallUnknown, kWallUnknown) += 1.0 / (*knowledge.wall_sigma_m * *knowledge.wall_sigma_m);

@@ -40,7 +40,7 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
 }
 
 std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
-                                           const Knowledge& knowledge) {
+                                           const PriorKnowledge& knowledge) {
   Eigen::MatrixXd known = WithSizePrior(information, knowledge);
   known = knowledge.calibration ? WithNuisance(known, kPair, *knowledge.calibration)
                                 : WithKnown(known, kPair, kPairParameters);

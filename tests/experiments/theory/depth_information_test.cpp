@@ -129,7 +129,7 @@ TEST(RgbdInformationTest, WhatIsKnownTightensTheBound) {
   const WallBefore black(2.0, 0.05);
   const RgbdObservation seen = black.Observe(1);
   const Eigen::MatrixXd information = black.Information(seen);
-  const auto variance_z = [&](const Knowledge& knowledge) {
+  const auto variance_z = [&](const PriorKnowledge& knowledge) {
     return RgbdBound(information, knowledge).value()(2, 2);
   };
   const double plain = variance_z({});
