@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "core/input_error.h"
+#include "core/program.h"
 #include "experiments/folder_lock.h"
 #include "experiments/result_files.h"
 #include "experiments/run_identity.h"
@@ -17,7 +18,6 @@
 #include "experiments/trial_files.h"
 #include "experiments/trial_plan.h"
 #include "experiments/trial_writer.h"
-#include "experiments/versions.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/calibration_choice.h"
+#include "experiments/calibrated_rig.h"
 
 #include "core/random/random_pose.h"
 #include "experiments/board_calibration.h"
