@@ -40,7 +40,7 @@ intervals.csv has the rates of all outcomes, too.
 }  // namespace
 
 RowReports::RowReports(const Study& study, std::span<const Cell> cells)
-    : study_(study), cells_(cells), budgets_(study), plan_(study, cells) {
+    : study_(study), cells_(cells), budgets_(study, cells), plan_(study, cells) {
   for (const Cell& cell : cells) causes_.push_back(CausesOf(study, cell).size());
 }
 

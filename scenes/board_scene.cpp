@@ -1,10 +1,12 @@
 #include "scenes/board_scene.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <opencv2/aruco.hpp>
 
+#include "core/faults.h"
 #include "scenes/paint.h"
-#include "scenes/size_checks.h"
 #include "scenes/solid_lattice.h"
 
 namespace fenestra {
@@ -66,18 +68,18 @@ Box BoxOf(const Rectangle& r, const Pose& X_WG) {
 
 void Check(const BoardSceneOptions& o) {
   Validate(o.board);
-  SizeChecks checks("board_scene");
+  Faults faults("board_scene");
   const double margin_m = 2.0 * o.board.square_m;
-  checks.Demand(
+  faults.Require(
       !(o.board.width_m() + margin_m >= o.wall_width_m ||
         o.board.height_m() + margin_m >= o.wall_height_m),
       fmt::format("a board of {} m x {} m with its margin does not fit on a wall of {} m "
                   "x {} m",
                   o.board.width_m(), o.board.height_m(), o.wall_width_m, o.wall_height_m));
-  checks.Reflectance("white_reflectance", o.white_reflectance);
-  checks.Reflectance("black_reflectance", o.black_reflectance);
-  checks.Reflectance("wall_reflectance", o.wall_reflectance);
-  checks.ThrowIfFaulty();
+  faults.RequireWithin("white_reflectance", o.white_reflectance, 0.0, 1.0);
+  faults.RequireWithin("black_reflectance", o.black_reflectance, 0.0, 1.0);
+  faults.RequireWithin("wall_reflectance", o.wall_reflectance, 0.0, 1.0);
+  faults.ThrowIfAny();
 }
 
 }  // namespace
