@@ -9,8 +9,8 @@
 
 namespace fenestra {
 
-/// What a calibration gave, for people: how well the views agree, each parameter with its standard
-/// deviation, the views that were left out and why. Markdown, or plain text for a terminal.
+/// The result of a calibration for people: how well the views agree, each parameter with its
+/// standard deviation, the views that were left out and why.
 enum class ReportFormat { kPlain, kMarkdown };
 std::string CalibrationReport(const StereoCalibrationResult& result, const CalibrationBoard& board,
                               ReportFormat format);

@@ -149,7 +149,7 @@ void CopyRows(const ShardResult& shard, ResultStore& joined) {
 
 void JoinStores(const std::vector<ShardResult>& shards, const fs::path& file) {
   const fs::path growing = file.string() + ".merging";
-  fs::remove(growing);  // Of a merge that was killed.
+  fs::remove(growing);  // Left by a merge that was killed.
   StoreMetadata metadata = shards.front().metadata;
   metadata["shard"] = Shard{}.ToString();
   {
@@ -175,7 +175,7 @@ std::vector<CellSummary> MergeShards(const Merge& merge) {
   const std::vector<ShardResult> shards = OpenAll(merge.shards);
   Check(shards);
   const FolderLock lock(merge.out);
-  const fs::path file = merge.out / "results.sqlite";
+  const fs::path file = merge.out / ResultStore::kFileName;
   for (const ShardResult& shard : shards) {
     if (fs::exists(file) && fs::equivalent(file, shard.file)) {
       throw InputError(merge.out, "is the folder of a shard; choose another --out");

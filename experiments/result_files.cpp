@@ -7,12 +7,12 @@
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
+#include "experiments/cell_tally.h"
 #include "experiments/prior_text.h"
 #include "experiments/report.h"
 #include "experiments/row_reports.h"
 #include "experiments/run_trials.h"
 #include "experiments/study_reader.h"
-#include "experiments/summariser.h"
 #include "experiments/trial_files.h"
 #include "vision/detector_registry.h"
 
@@ -67,7 +67,7 @@ class CheckedSummariser {
 }  // namespace
 
 fs::path StoreFile(const fs::path& results) {
-  return fs::is_directory(results) ? results / "results.sqlite" : results;
+  return fs::is_directory(results) ? results / ResultStore::kFileName : results;
 }
 
 Study StudyOf(const ResultStore& store, const fs::path& file) {
@@ -86,13 +86,13 @@ void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const f
 }
 
 std::vector<CellSummary> Summarise(const ResultStore& store) {
-  CheckedSummariser summariser("results.sqlite");
+  CheckedSummariser summariser(ResultStore::kFileName);
   store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
   return summariser.Finish();
 }
 
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::path& folder) {
-  const fs::path file = folder / "results.sqlite";
+  const fs::path file = folder / ResultStore::kFileName;
   const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   CheckedSummariser summariser(file);

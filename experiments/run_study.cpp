@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "core/input_error.h"
+#include "core/program.h"
 #include "experiments/folder_lock.h"
 #include "experiments/result_files.h"
 #include "experiments/run_identity.h"
@@ -16,7 +17,6 @@
 #include "experiments/trial_files.h"
 #include "experiments/trial_plan.h"
 #include "experiments/trial_writer.h"
-#include "experiments/versions.h"
 
 namespace fenestra {
 namespace {
@@ -134,7 +134,7 @@ bool RunMissing(const StudyRun& run, std::span<const Cell> cells, ResultStore& s
 StudyResult RunStudy(const StudyRun& run) {
   const std::vector<Cell> cells = Cells(run.study);
   const std::vector<TrialKey> trials = run.shard.Of(AllTrials(cells));
-  const std::filesystem::path file = run.out / "results.sqlite";
+  const std::filesystem::path file = run.out / ResultStore::kFileName;
   CheckShard(run);
   run.detectors->Start(run.study);
   const FolderLock lock(run.out);
@@ -162,7 +162,7 @@ StudyResult RunStudy(const StudyRun& run) {
   complete = RunMissing(run, cells, store);
   result.stored = static_cast<int64_t>(store.FinishedTrials().size());
   if (!complete) return result;
-  result.trials = result.stored;  // Of a study that stops by itself known only now.
+  result.trials = result.stored;  // A study that stops by itself knows its trials only now.
   result.summaries = WriteResultFiles(store, run.out);
   return result;
 }

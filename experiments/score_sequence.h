@@ -12,7 +12,7 @@
 
 namespace fenestra {
 
-/// What a detector that runs elsewhere said of every frame of a sequence, in order.
+/// The detections of a detector that runs elsewhere, one for each image of a sequence, in order.
 struct MadeDetections {
   std::string label;
   std::vector<TimedDetection> detections;

@@ -14,7 +14,7 @@ namespace fenestra {
 /// One observation of a recorded sequence and what was surveyed of it.
 struct SequenceFrame {
   int cell = 0;   ///< Frames with the same part and levels are one cell, in order of appearance.
-  int trial = 0;  ///< Of the cell, from 0.
+  int trial = 0;  ///< Index in the cell, from 0.
   std::string part;
   FactorValues levels;
   FactorValues drawn;

@@ -11,7 +11,7 @@ namespace fenestra {
 namespace {
 
 constexpr double kConfidence = 0.95;
-// Of an envelope's cells: how soon one may be given up.
+// How soon one of an envelope's cells may be given up.
 constexpr int kFirstEnvelopeLook = 10;
 
 // The widest interval of the figure's; infinite where one is missing.

@@ -21,7 +21,7 @@ struct NamedCamera {
   Pose X_WC;
 };
 
-/// The same of a trial, whose true cameras are known:
+/// TruthJson of a trial whose true cameras are known, with further members:
 ///
 ///     camera                      the scored one, in whose frame the windows are: "left", "depth"
 ///     world_from_<camera>         of every camera

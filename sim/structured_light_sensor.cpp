@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/demands.h"
+#include "core/input_error.h"
 
 namespace fenestra {
 namespace {
@@ -90,7 +91,7 @@ void Validate(const StructuredLightOptions& o) {
 }
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       nominal_(CalibrationOf(options)),
       depth_model_(MakeDepthModel(options, InfraredCamera(options))),
       color_(options.color, DepthToColor(options).inverse(), options.motion,

@@ -23,6 +23,6 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
 /// The bound on the centroid's covariance [m²]; nullopt where there is none: without a return from
 /// depth, a frame of unknown size may be anywhere along its line of sight.
 std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
-                                         const Knowledge& knowledge);
+                                         const PriorKnowledge& knowledge);
 
 }  // namespace fenestra

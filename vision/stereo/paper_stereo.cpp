@@ -11,16 +11,12 @@
 #include "vision/stereo/closed_contour.h"
 #include "vision/stereo/depth_image.h"
 #include "vision/stereo/guided_matching.h"
+#include "vision/stereo/rectified_pictures.h"
 #include "vision/stereo/stage_pictures.h"
 #include "vision/stereo/window_rectangle.h"
 
 namespace fenestra {
 namespace {
-
-const PaperStereoOptions& Validated(const PaperStereoOptions& options) {
-  Validate(options);
-  return options;
-}
 
 FrameCriteria Criteria(const PaperStereoOptions& options) {
   return {.window_px = options.sad_window_px,

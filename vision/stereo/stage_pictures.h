@@ -1,25 +1,15 @@
 #pragma once
 
-#include <array>
 #include <opencv2/core.hpp>
 
-#include "core/stage_log.h"
 #include "vision/stereo/depth_image.h"
-#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 
-/// Both images side by side with horizontal lines: the same point must be at the same height.
-cv::Mat3b DrawRectifiedPair(const RectifiedPair& pair);
-
-/// How points in L appear in DrawRectifiedPair's picture: on its left half, which is also how they
-/// appear in any picture of the rectified left camera, and on its right half.
-std::array<PictureView, 2> RectifiedViews(const StereoRectification& rectification);
-
-/// Depth in false colours, near red, far blue; no depth black.
+/// Draws depth in false colours, near red and far blue; pixels without depth are black.
 cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range);
 
-/// DetectEdges' result for a box of an image, in an image of this size.
+/// Places DetectEdges' result for a box of an image into an image of the given size.
 cv::Mat1b DrawEdges(const cv::Mat1b& edges, const cv::Rect& box, const cv::Size& size);
 
 }  // namespace fenestra
