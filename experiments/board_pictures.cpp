@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "core/faults.h"
-#include "core/image_io.h"
+#include "core/io/faults.h"
+#include "core/io/image_io.h"
 #include "vision/calibration/board_finder.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {

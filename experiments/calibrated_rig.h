@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "core/calibration.h"
-#include "core/random_stream.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
 #include "experiments/calibration_cache.h"
 #include "experiments/calibration_choice.h"
 #include "sim/stereo_rig.h"

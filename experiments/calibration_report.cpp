@@ -7,9 +7,9 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "core/atomic_file.h"
-#include "core/calibration_io.h"
-#include "core/image_io.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
 #include "experiments/csv_writer.h"
 #include "experiments/number_format.h"
 #include "experiments/text_table.h"

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {

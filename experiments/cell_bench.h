@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "experiments/calibration_cache.h"
 #include "experiments/detector_maker.h"
 #include "experiments/trial_bench.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "experiments/depth_bench.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "sim/structured_light_sensor.h"
 
 namespace fenestra {

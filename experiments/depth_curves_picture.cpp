@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "experiments/depth_curves.h"
 #include "experiments/depth_laws.h"
 #include "experiments/plot.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "experiments/depth_bench.h"
 #include "experiments/depth_curves.h"
 #include "experiments/depth_laws.h"

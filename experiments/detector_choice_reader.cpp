@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "experiments/name_reader.h"
 
 namespace fenestra {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/study.h"
 #include "vision/detector_registry.h"
 

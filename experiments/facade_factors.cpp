@@ -1,6 +1,6 @@
 #include "experiments/facade_factors.h"
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "scenes/facade_plan.h"
 #include "scenes/wall_texture.h"
 

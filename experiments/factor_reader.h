@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
-#include "core/yaml_reader.h"
+#include "core/io/parameter_table.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/study.h"
 
 namespace fenestra {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/check.h"
-#include "core/pose.h"
+#include "core/geometry/pose.h"
+#include "core/system/check.h"
 #include "experiments/facade_factors.h"
 
 namespace fenestra {

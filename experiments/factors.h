@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 #include "experiments/trial_settings.h"
 
 namespace fenestra {

@@ -6,7 +6,7 @@
 #include <iterator>
 #include <map>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "experiments/folder_lock.h"
 #include "experiments/result_files.h"
 #include "experiments/run_identity.h"

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "core/observation.h"
-#include "core/yaml_reader.h"
+#include "core/detection/observation.h"
+#include "core/io/yaml_reader.h"
 
 namespace fenestra {
 

@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "core/check.h"
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <ostream>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
 #include "experiments/cell_tally.h"
 #include "experiments/prior_text.h"
 #include "experiments/report.h"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/atomic_file.h"
-#include "core/image_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
 #include "experiments/csv_writer.h"
 #include "experiments/design/causes.h"
 #include "experiments/envelope/envelope_report.h"

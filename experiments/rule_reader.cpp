@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "experiments/factors.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/envelope/envelope_rule.h"
 #include "experiments/stopping_rule.h"
 

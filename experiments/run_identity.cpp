@@ -6,7 +6,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/program.h"
+#include "core/system/program.h"
 #include "experiments/library_versions.h"
 #include "experiments/study_writer.h"
 #include "vision/plugin_loader.h"

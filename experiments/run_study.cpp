@@ -9,8 +9,8 @@
 #include <iterator>
 #include <optional>
 
-#include "core/input_error.h"
-#include "core/program.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
 #include "experiments/folder_lock.h"
 #include "experiments/result_files.h"
 #include "experiments/run_identity.h"

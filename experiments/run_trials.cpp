@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/cell_bench.h"
 
 namespace fenestra {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/design/causes.h"
 #include "experiments/design/sobol_points.h"
 

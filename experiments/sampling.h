@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/design/gaussian_copula.h"
 #include "experiments/study.h"
 

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
-#include "core/atomic_file.h"
-#include "core/did_you_mean.h"
-#include "core/image_io.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/image_io.h"
+#include "core/io/input_error.h"
 #include "core/io/srgb.h"
 #include "experiments/truth_exr.h"
 #include "experiments/truth_json.h"

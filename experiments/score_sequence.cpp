@@ -5,9 +5,9 @@
 #include <fstream>
 #include <optional>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
-#include "core/program.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
 #include "experiments/cell_tally.h"
 #include "experiments/library_versions.h"
 #include "experiments/report.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/detection_json.h"
+#include "core/detection/detection_json.h"
 #include "experiments/detector_maker.h"
 #include "experiments/sequence.h"
 #include "experiments/summary.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "experiments/trial_record.h"
 #include "sim/ground_truth.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/observation_files.h"
+#include "core/detection/observation_files.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/factors.h"
 #include "sim/ground_truth.h"

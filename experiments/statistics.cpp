@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

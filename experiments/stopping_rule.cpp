@@ -1,6 +1,6 @@
 #include "experiments/stopping_rule.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/statistics/looks.h"
 
 namespace fenestra {

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <mutex>
 
-#include "core/atomic_file.h"
-#include "core/check.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 #include "experiments/store_rows.h"
 
 namespace fenestra {

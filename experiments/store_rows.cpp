@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/record_json.h"
 
 namespace fenestra {

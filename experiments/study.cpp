@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/check.h"
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 #include "experiments/design/sampling_design.h"
 #include "experiments/distribution.h"
 #include "experiments/envelope/envelope_rule.h"

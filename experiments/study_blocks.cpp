@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "experiments/factor_reader.h"
 #include "experiments/factors.h"
 #include "experiments/name_reader.h"

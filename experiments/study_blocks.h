@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/design/design_reader.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/study.h"

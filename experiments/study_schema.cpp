@@ -5,7 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/design/design_reader.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/factor_reader.h"

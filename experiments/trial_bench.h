@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "experiments/sampling.h"
 #include "experiments/study.h"
 #include "experiments/theory/trial_information.h"

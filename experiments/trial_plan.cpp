@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/statistics/looks.h"
 
 namespace fenestra {

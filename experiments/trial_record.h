@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/detection.h"
-#include "core/observation.h"
-#include "core/stage_log.h"
+#include "core/detection/detection.h"
+#include "core/detection/observation.h"
+#include "core/detection/stage_log.h"
 #include "experiments/factors.h"
 
 namespace fenestra {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/observation.h"
+#include "core/detection/observation.h"
 #include "experiments/calibration_choice.h"
 #include "scenes/facade.h"
 #include "scenes/lighting.h"

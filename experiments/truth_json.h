@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 #include "sim/ground_truth.h"
 
 namespace fenestra {

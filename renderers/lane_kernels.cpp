@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "renderers/net_samples.h"
 #include "renderers/packet.h"
 

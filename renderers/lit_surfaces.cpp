@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 namespace {

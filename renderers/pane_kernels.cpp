@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 #include "renderers/fresnel.h"
 
 namespace fenestra {

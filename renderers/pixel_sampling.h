@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "renderers/film.h"
 #include "renderers/light_transport.h"
 #include "renderers/ray_grid.h"

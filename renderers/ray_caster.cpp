@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/aov_cast.h"
 #include "renderers/illumination.h"
 #include "renderers/light_transport.h"

@@ -3,8 +3,8 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "core/pose.h"
-#include "core/random_stream.h"
+#include "core/geometry/pose.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_grid.h"
 #include "renderers/render_types.h"
 #include "scenes/lighting.h"

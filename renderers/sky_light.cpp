@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "renderers/lit_surfaces.h"
 
 namespace fenestra {

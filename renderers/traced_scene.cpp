@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 #include "renderers/pane_kernels.h"
 
 namespace fenestra {

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/aruco.hpp>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/paint.h"
 #include "scenes/solid_lattice.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/facade_plan.h"
 #include "scenes/facade_shutters.h"
 #include "scenes/wall_texture.h"

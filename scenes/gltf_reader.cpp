@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/gltf.h"
 #include "scenes/gltf/asset.h"
 #include "scenes/gltf/cameras.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/paint.h"
 #include "scenes/solid_lattice.h"
 

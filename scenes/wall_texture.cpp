@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 #include <opencv2/core.hpp>
 
-#include "core/check.h"
 #include "core/io/srgb.h"
+#include "core/system/check.h"
 #include "scenes/wall_pattern.h"
 
 namespace fenestra {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/faults.h"
-#include "core/input_error.h"
+#include "core/io/faults.h"
+#include "core/io/input_error.h"
 #include "scenes/board_scene.h"
 
 namespace fenestra {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/check.h"
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "core/io/srgb.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "renderers/render_types.h"
 #include "sim/gathered_pattern.h"
 #include "sim/infrared_view.h"

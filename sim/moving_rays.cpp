@@ -1,6 +1,6 @@
 #include "sim/moving_rays.h"
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

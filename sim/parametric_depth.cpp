@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "sim/chance_match.h"
 #include "sim/missing_return.h"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "sim/missing_return.h"
 
 namespace fenestra {

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-#include "core/check.h"
-#include "core/faults.h"
-#include "core/wide.h"
+#include "core/io/faults.h"
+#include "core/system/check.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "core/random/random_pose.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/check.h"
-#include "core/pose.h"
+#include "core/geometry/pose.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

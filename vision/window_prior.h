@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/detection.h"
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/detection.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 
 namespace fenestra {
 

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/bounds/estimation.h"
 #include "experiments/bounds/regression.h"
 #include "experiments/bounds/row_selection.h"

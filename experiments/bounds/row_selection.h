@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
+#include "core/io/parameter_table.h"
 #include "experiments/study.h"
 #include "experiments/trial_record.h"
 

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <filesystem>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/board_pictures.h"
 #include "experiments/calibration_report.h"
 #include "experiments/cli/commands.h"

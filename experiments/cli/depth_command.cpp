@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "core/atomic_file.h"
-#include "core/image_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
 #include "experiments/depth_curves.h"
 

@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "core/calibration_io.h"
-#include "core/detection_json.h"
-#include "core/image_io.h"
+#include "core/detection/detection_json.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/plugins.h"

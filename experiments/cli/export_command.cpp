@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/sampling.h"

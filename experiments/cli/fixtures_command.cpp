@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"

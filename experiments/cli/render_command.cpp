@@ -4,8 +4,8 @@
 #include <map>
 #include <optional>
 
-#include "core/input_error.h"
-#include "core/pose.h"
+#include "core/geometry/pose.h"
+#include "core/io/input_error.h"
 #include "experiments/cell_bench.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"

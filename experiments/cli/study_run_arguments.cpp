@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/input_error.h"
-#include "core/program.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/progress.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "experiments/design/causes.h"
 #include "experiments/design/gaussian_copula.h"
 #include "experiments/detector_choice_reader.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/design/sampling_design.h"
 #include "experiments/study.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/emva/evaluation.h"
 #include "sim/image_sensor.h"
 

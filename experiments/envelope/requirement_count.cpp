@@ -1,6 +1,6 @@
 #include "experiments/envelope/requirement_count.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/statistics.h"
 
 namespace fenestra {

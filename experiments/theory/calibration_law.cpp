@@ -1,7 +1,7 @@
 #include "experiments/theory/calibration_law.h"
 
-#include "core/check.h"
-#include "core/pose.h"
+#include "core/geometry/pose.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/observation.h"
+#include "core/detection/observation.h"
 #include "experiments/theory/frame_state.h"
 #include "renderers/ray_caster.h"
 #include "sim/structured_light_sensor.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "sim/ground_truth.h"
 
 namespace fenestra {

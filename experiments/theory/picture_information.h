@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "experiments/theory/frame_state.h"
 #include "experiments/theory/pixel_noise.h"
 #include "sim/lens.h"

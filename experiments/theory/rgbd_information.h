@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "experiments/theory/depth_information.h"
 #include "experiments/theory/knowledge.h"
 #include "sim/color_camera.h"

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "experiments/theory/frame_state.h"
 #include "experiments/theory/knowledge.h"
 #include "experiments/theory/pixel_noise.h"

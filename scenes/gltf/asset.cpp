@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/extensions.h"
 #include "scenes/gltf/instance_attributes.h"

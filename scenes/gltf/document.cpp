@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/glb.h"
 
 namespace fenestra::gltf {

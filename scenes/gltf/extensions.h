@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra::gltf {
 

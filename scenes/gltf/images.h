@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/gltf/asset.h"
 #include "scenes/texture.h"
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/instance_attributes.h"
 #include "scenes/gltf/instancing.h"
 #include "scenes/gltf/skinning.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/extensions.h"
 #include "scenes/gltf/schema.h"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra::gltf {
 

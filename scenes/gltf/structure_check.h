@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {

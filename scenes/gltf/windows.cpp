@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/did_you_mean.h"
-#include "core/faults.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/values.h"
 

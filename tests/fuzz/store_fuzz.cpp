@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/result_files.h"
 
 // A libFuzzer target: whatever a result folder's files hold, they are read and reported, recovered,

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

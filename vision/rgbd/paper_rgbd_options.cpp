@@ -1,6 +1,6 @@
 #include "vision/rgbd/paper_rgbd_options.h"
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"

@@ -1,6 +1,6 @@
 #include "vision/stereo/edge_stereo_options.h"
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/frame/darkness.h"
 #include "vision/stereo/closed_contour.h"
 #include "vision/stereo/depth_image.h"

@@ -1,7 +1,7 @@
 #include "vision/stereo/paper_stereo_options.h"
 
-#include "core/faults.h"
-#include "core/pose.h"
+#include "core/geometry/pose.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "experiments/theory/rgbd_information.h"
 #include "scenes/paper_target.h"
 #include "sim/viewpoint.h"

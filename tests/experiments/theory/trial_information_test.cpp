@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/cell_bench.h"
 #include "experiments/study_reader.h"
 #include "experiments/theory/bound_table.h"
