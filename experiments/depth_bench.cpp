@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "scenes/paper_target.h"
+#include "scenes/targets/paper_target.h"
 
 namespace fenestra {
 namespace {

@@ -1,8 +1,8 @@
 #include "experiments/facade_factors.h"
 
 #include "core/geometry/pose.h"
-#include "scenes/facade_plan.h"
-#include "scenes/wall_texture.h"
+#include "scenes/facade/facade_plan.h"
+#include "scenes/facade/wall_texture.h"
 
 namespace fenestra {
 namespace {

@@ -14,7 +14,7 @@
 #include "experiments/truth_exr.h"
 #include "experiments/truth_json.h"
 #include "renderers/ray_caster.h"
-#include "scenes/tessellation.h"
+#include "scenes/mesh/tessellation.h"
 
 namespace fenestra {
 namespace {

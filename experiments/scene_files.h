@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 namespace fenestra {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "experiments/trial_settings.h"
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 namespace fenestra {
 

@@ -2,7 +2,7 @@
 
 #include "core/system/check.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade_check.h"
+#include "scenes/facade/facade_check.h"
 
 namespace fenestra {
 

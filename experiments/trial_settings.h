@@ -4,10 +4,10 @@
 
 #include "core/detection/observation.h"
 #include "experiments/calibration_choice.h"
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 #include "scenes/lighting.h"
-#include "scenes/paper_target.h"
 #include "scenes/scene.h"
+#include "scenes/targets/paper_target.h"
 #include "sim/stereo_rig.h"
 #include "sim/structured_light_sensor.h"
 #include "sim/viewpoint.h"

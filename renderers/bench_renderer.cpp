@@ -12,9 +12,9 @@
 #include "renderers/pane_kernels.h"
 #include "renderers/ray_caster.h"
 #include "renderers/traced_scene.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
-#include "scenes/tessellation.h"
+#include "scenes/facade/facade.h"
+#include "scenes/mesh/tessellation.h"
+#include "scenes/targets/paper_target.h"
 
 namespace fenestra {
 namespace {

@@ -9,7 +9,7 @@
 #include "renderers/lane_kernels.h"
 #include "renderers/pane_kernels.h"
 #include "renderers/traced_scene.h"
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 #include "sim/image_sensor.h"
 #include "sim/lens.h"
 #include "sim/stereo_rig.h"

@@ -8,7 +8,7 @@
 
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
-#include "scenes/board_scene.h"
+#include "scenes/targets/board_scene.h"
 
 namespace fenestra {
 namespace {

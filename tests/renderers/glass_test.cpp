@@ -6,7 +6,7 @@
 
 #include "renderers/fresnel.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

@@ -5,8 +5,8 @@
 
 #include "core/io/input_error.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

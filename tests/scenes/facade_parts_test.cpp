@@ -8,9 +8,9 @@
 #include <set>
 
 #include "core/io/input_error.h"
-#include "scenes/facade_check.h"
-#include "scenes/facade_plan.h"
-#include "scenes/facade_shutters.h"
+#include "scenes/facade/facade_check.h"
+#include "scenes/facade/facade_plan.h"
+#include "scenes/facade/facade_shutters.h"
 #include "tests/scenes/facade_examples.h"
 #include "tests/scenes/mesh_checks.h"
 

@@ -1,4 +1,4 @@
-#include "scenes/solid_bodies.h"
+#include "scenes/mesh/solid_bodies.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/tessellation.h"
+#include "scenes/mesh/tessellation.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 #include "sim/viewpoint.h"
 
 namespace fenestra {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/paper_target.h"
+#include "scenes/targets/paper_target.h"
 #include "sim/viewpoint.h"
 
 namespace fenestra {

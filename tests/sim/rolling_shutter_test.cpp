@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "scenes/paper_target.h"
+#include "scenes/targets/paper_target.h"
 #include "sim/moving_rays.h"
 #include "sim/structured_light_sensor.h"
 #include "sim/viewpoint.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "scenes/paper_target.h"
+#include "scenes/targets/paper_target.h"
 #include "sim/viewpoint.h"
 
 namespace fenestra {

@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
 #include "sim/viewpoint.h"
 
 namespace fenestra {

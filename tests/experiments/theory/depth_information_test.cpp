@@ -8,7 +8,7 @@
 
 #include "core/geometry/pose.h"
 #include "experiments/theory/rgbd_information.h"
-#include "scenes/paper_target.h"
+#include "scenes/targets/paper_target.h"
 #include "sim/viewpoint.h"
 
 namespace fenestra {

@@ -6,7 +6,7 @@
 #include <Eigen/QR>
 #include <array>
 
-#include "scenes/board_scene.h"
+#include "scenes/targets/board_scene.h"
 #include "sim/stereo_rig.h"
 #include "sim/viewpoint.h"
 #include "vision/calibration/board_finder.h"
