@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/system/freed_memory.h"
-#include "renderers/lane_kernels.h"
-#include "renderers/pane_kernels.h"
-#include "renderers/traced_scene.h"
+#include "renderers/light/lane_kernels.h"
+#include "renderers/tracing/pane_kernels.h"
+#include "renderers/tracing/traced_scene.h"
 #include "scenes/facade/facade.h"
 #include "sim/image_sensor.h"
 #include "sim/lens.h"

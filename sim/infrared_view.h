@@ -6,7 +6,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "renderers/ray_caster.h"
-#include "renderers/ray_grid.h"
+#include "renderers/tracing/ray_grid.h"
 #include "sim/moving_rays.h"
 
 namespace fenestra {

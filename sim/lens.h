@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "renderers/ray_grid.h"
-#include "renderers/render_types.h"
+#include "renderers/tracing/ray_grid.h"
+#include "renderers/tracing/render_types.h"
 
 namespace fenestra {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "renderers/ray_caster.h"
-#include "renderers/ray_grid.h"
+#include "renderers/tracing/ray_grid.h"
 #include "sim/rolling_shutter.h"
 
 namespace fenestra {

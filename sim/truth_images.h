@@ -4,7 +4,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
-#include "renderers/render_types.h"
+#include "renderers/tracing/render_types.h"
 
 namespace fenestra {
 

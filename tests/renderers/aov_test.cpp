@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 
 #include "core/io/input_error.h"
-#include "renderers/fresnel.h"
 #include "renderers/ray_caster.h"
+#include "renderers/tracing/fresnel.h"
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
 #include "tests/renderers/test_scenes.h"

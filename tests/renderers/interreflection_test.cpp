@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/io/input_error.h"
-#include "renderers/diffuse_light.h"
+#include "renderers/light/diffuse_light.h"
 #include "renderers/ray_caster.h"
 #include "scenes/facade/facade.h"
 #include "scenes/mesh/solid_lattice.h"

@@ -1,4 +1,4 @@
-#include "renderers/light_bake.h"
+#include "renderers/light/light_bake.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include "core/random/random_stream.h"
-#include "renderers/mip_map.h"
 #include "renderers/ray_caster.h"
+#include "renderers/tracing/mip_map.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

@@ -1,4 +1,4 @@
-#include "renderers/ray_grid.h"
+#include "renderers/tracing/ray_grid.h"
 
 #include <gtest/gtest.h>
 
