@@ -6,7 +6,7 @@
 #include "core/random/random_stream.h"
 #include "experiments/calibration_cache.h"
 #include "experiments/calibration_choice.h"
-#include "sim/stereo_rig.h"
+#include "sim/stereo/stereo_rig.h"
 
 namespace fenestra {
 

@@ -11,8 +11,8 @@
 #include "experiments/detector_maker.h"
 #include "experiments/trial_bench.h"
 #include "renderers/ray_caster.h"
-#include "sim/stereo_rig.h"
-#include "sim/structured_light_sensor.h"
+#include "sim/stereo/stereo_rig.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random/random_stream.h"
-#include "sim/structured_light_sensor.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/structured_light_sensor.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/ground_truth.h"
-#include "sim/truth_images.h"
+#include "sim/truth/ground_truth.h"
+#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 

@@ -6,7 +6,7 @@
 
 #include "core/detection/detection.h"
 #include "experiments/trial_record.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

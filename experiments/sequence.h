@@ -7,7 +7,7 @@
 #include "core/detection/observation_files.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/factors.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

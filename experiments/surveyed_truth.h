@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/io/yaml_reader.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

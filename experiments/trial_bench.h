@@ -8,9 +8,9 @@
 #include "experiments/study.h"
 #include "experiments/theory/trial_information.h"
 #include "experiments/trial_record.h"
-#include "sim/depth_frame.h"
-#include "sim/ground_truth.h"
-#include "sim/truth_images.h"
+#include "sim/structured_light/depth_frame.h"
+#include "sim/truth/ground_truth.h"
+#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 

@@ -7,7 +7,7 @@
 #include "core/detection/observation.h"
 #include "core/detection/stage_log.h"
 #include "core/geometry/calibration.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

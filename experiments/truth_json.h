@@ -6,7 +6,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

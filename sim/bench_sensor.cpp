@@ -10,11 +10,11 @@
 #include "renderers/tracing/pane_kernels.h"
 #include "renderers/tracing/traced_scene.h"
 #include "scenes/facade/facade.h"
-#include "sim/image_sensor.h"
-#include "sim/lens.h"
-#include "sim/stereo_rig.h"
-#include "sim/structured_light_sensor.h"
-#include "sim/viewpoint.h"
+#include "sim/camera/image_sensor.h"
+#include "sim/camera/lens.h"
+#include "sim/stereo/stereo_rig.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

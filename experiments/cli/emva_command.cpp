@@ -10,7 +10,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/emva/report.h"
 #include "experiments/factors.h"
-#include "sim/spectral_response.h"
+#include "sim/camera/spectral_response.h"
 
 namespace fenestra::cli {
 namespace {

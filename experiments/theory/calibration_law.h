@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "experiments/calibration_choice.h"
-#include "sim/stereo_rig.h"
+#include "sim/stereo/stereo_rig.h"
 #include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "sim/disparity_range.h"
-#include "sim/gathered_pattern.h"
-#include "sim/window_evidence.h"
+#include "sim/structured_light/block_evidence.h"
+#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/sampled_pattern.h"
 
 namespace fenestra {
 namespace {

@@ -5,7 +5,7 @@
 #include "core/detection/observation.h"
 #include "experiments/theory/frame_state.h"
 #include "renderers/ray_caster.h"
-#include "sim/structured_light_sensor.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra {
 
@@ -15,9 +15,9 @@ inline constexpr int kDepthUnknowns = kFrameUnknowns + 1;
 inline constexpr int kWallUnknown = kFrameUnknowns;
 using DepthMatrix = Eigen::Matrix<double, kDepthUnknowns, kDepthUnknowns>;
 
-/// The information of depth images on the plane of a frame, by the noise of sim/parametric_depth
-/// (which was fitted to the speckle model, for which this stands as well). A pixel of a plane
-/// n·p = δ has the disparity
+/// The information of depth images on the plane of a frame, by the noise of
+/// sim/structured_light/parametric_depth (which was fitted to the speckle model, for which this
+/// stands as well). A pixel of a plane n·p = δ has the disparity
 ///
 ///     d = f b (n·r)/δ + noise   [px of a 640-wide image],
 ///

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/geometry/pose.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

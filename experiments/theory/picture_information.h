@@ -6,7 +6,7 @@
 #include "core/geometry/camera_model.h"
 #include "experiments/theory/frame_state.h"
 #include "experiments/theory/pixel_noise.h"
-#include "sim/lens.h"
+#include "sim/camera/lens.h"
 
 namespace fenestra {
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "sim/image_sensor.h"
+#include "sim/camera/image_sensor.h"
 
 namespace fenestra {
 
 /// How much the value of a pixel that collects μ photo-electrons on average departs from that, in
-/// electrons: the sensor of sim/image_sensor as a detector meets it, who does not know the fixed
-/// pattern:
+/// electrons: the sensor of sim/camera/image_sensor as a detector meets it, who does not know the
+/// fixed pattern:
 ///
 ///     V(μ) = σ_d² + μ_I t + DSNU² + μ + (PRNU μ)² + q(μ)²/12   [e²],
 ///

@@ -7,7 +7,7 @@
 #include "core/geometry/calibration.h"
 #include "experiments/theory/depth_information.h"
 #include "experiments/theory/knowledge.h"
-#include "sim/color_camera.h"
+#include "sim/camera/color_camera.h"
 
 namespace fenestra {
 

@@ -8,7 +8,7 @@
 #include "experiments/theory/frame_state.h"
 #include "experiments/theory/knowledge.h"
 #include "experiments/theory/pixel_noise.h"
-#include "sim/lens.h"
+#include "sim/camera/lens.h"
 
 namespace fenestra {
 

@@ -6,9 +6,9 @@
 #include "experiments/study.h"
 #include "experiments/theory/depth_information.h"
 #include "experiments/theory/knowledge.h"
-#include "sim/ground_truth.h"
-#include "sim/stereo_rig.h"
-#include "sim/structured_light_sensor.h"
+#include "sim/stereo/stereo_rig.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "experiments/board_calibration.h"
-#include "sim/stereo_rig.h"
+#include "sim/stereo/stereo_rig.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

@@ -6,7 +6,7 @@
 
 #include "experiments/factors.h"
 #include "experiments/scoring.h"
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 namespace {

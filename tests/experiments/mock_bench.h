@@ -5,7 +5,7 @@
 
 #include "experiments/run_trials.h"
 #include "experiments/sampling.h"
-#include "sim/stereo_rig.h"
+#include "sim/stereo/stereo_rig.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra::testing {

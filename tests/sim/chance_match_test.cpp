@@ -1,4 +1,4 @@
-#include "sim/chance_match.h"
+#include "sim/structured_light/chance_match.h"
 
 #include <gtest/gtest.h>
 

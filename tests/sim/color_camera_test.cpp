@@ -1,4 +1,4 @@
-#include "sim/color_camera.h"
+#include "sim/camera/color_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "scenes/facade/facade.h"
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/image_sensor.h"
+#include "sim/camera/image_sensor.h"
 
 #include <gtest/gtest.h>
 

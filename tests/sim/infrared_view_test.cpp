@@ -1,4 +1,4 @@
-#include "sim/infrared_view.h"
+#include "sim/structured_light/infrared_view.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scenes/targets/paper_target.h"
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/rolling_shutter.h"
+#include "sim/motion/rolling_shutter.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 
 #include "core/io/input_error.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/moving_rays.h"
-#include "sim/structured_light_sensor.h"
-#include "sim/viewpoint.h"
+#include "sim/motion/moving_rays.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

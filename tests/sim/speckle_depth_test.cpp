@@ -9,8 +9,8 @@
 
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/structured_light_sensor.h"
-#include "sim/viewpoint.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/viewpoint.h"
 #include "tests/sim/depth_poses.h"
 
 namespace fenestra {

@@ -1,4 +1,4 @@
-#include "sim/stereo_rig.h"
+#include "sim/stereo/stereo_rig.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "core/io/input_error.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

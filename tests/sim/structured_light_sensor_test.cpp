@@ -1,4 +1,4 @@
-#include "sim/structured_light_sensor.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 #include <gtest/gtest.h>
 

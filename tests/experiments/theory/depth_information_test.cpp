@@ -9,7 +9,7 @@
 #include "core/geometry/pose.h"
 #include "experiments/theory/rgbd_information.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {
