@@ -10,10 +10,10 @@
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
 #include "vision/detector_registry.h"
-#include "vision/rgbd/cloud_shape.h"
-#include "vision/rgbd/narf_key_points.h"
-#include "vision/rgbd/paper_rgbd.h"
-#include "vision/stereo/paper_stereo.h"
+#include "vision/rgbd/paper/cloud_shape.h"
+#include "vision/rgbd/paper/narf_key_points.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "vision/window_prior.h"
+#include "core/detection/window_prior.h"
 
 namespace fenestra {
 

@@ -8,7 +8,7 @@
 
 namespace fenestra {
 
-/// A detector's prior knowledge of the window (vision/window_prior.h), as reports show it:
+/// A detector's prior knowledge of the window (core/detection/window_prior.h), as reports show it:
 /// "expected_height_m 1, expected_width_m 1"; empty if nothing.
 std::string PriorText(const DetectorChoice& detector);
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/detection/window_prior.h"
 #include "experiments/detector_choice_reader.h"
-#include "vision/window_prior.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "vision/window_prior.h"
+#include "core/detection/window_prior.h"
 
 #include <gtest/gtest.h>
 

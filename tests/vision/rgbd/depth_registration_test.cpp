@@ -1,4 +1,4 @@
-#include "vision/rgbd/depth_registration.h"
+#include "vision/rgbd/paper/depth_registration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/rgbd/diagonals.h"
+#include "vision/rgbd/paper/diagonals.h"
 
 #include <gtest/gtest.h>
 

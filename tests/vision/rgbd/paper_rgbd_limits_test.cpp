@@ -5,7 +5,7 @@
 
 #include "core/io/input_error.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
-#include "vision/rgbd/paper_rgbd.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
 
 namespace fenestra {
 namespace {

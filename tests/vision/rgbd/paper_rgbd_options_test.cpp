@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper_rgbd_options.h"
+#include "vision/rgbd/paper/paper_rgbd_options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/rgbd/plane_rgbd.h"
+#include "vision/rgbd/plane/plane_rgbd.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "vision/rgbd/vertices.h"
+#include "vision/rgbd/paper/vertices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/random/random_stream.h"
-#include "vision/rgbd/convex_hull.h"
+#include "vision/rgbd/paper/convex_hull.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "vision/stereo/disparity_plane.h"
+#include "vision/stereo/paper/disparity_plane.h"
 
 #include <gtest/gtest.h>
 

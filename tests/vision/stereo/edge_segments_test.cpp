@@ -1,4 +1,4 @@
-#include "vision/frame/edge_segments.h"
+#include "vision/frame/detection/edge_segments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/stereo/paper_stereo.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "vision/stereo/window_rectangle.h"
+#include "vision/stereo/paper/window_rectangle.h"
 
 #include <gtest/gtest.h>
 
