@@ -6,9 +6,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "experiments/cell_bench.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
 #include "vision/detector_registry.h"
 #include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/narf_key_points.h"

@@ -1,4 +1,4 @@
-#include "experiments/board_pictures.h"
+#include "experiments/rig_calibration/board_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

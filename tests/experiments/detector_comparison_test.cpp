@@ -1,4 +1,4 @@
-#include "experiments/detector_comparison.h"
+#include "experiments/analysis/detector_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "experiments/distribution.h"
+#include "experiments/study/distribution.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/factors.h"
+#include "experiments/study/factors.h"
 
 #include <gtest/gtest.h>
 

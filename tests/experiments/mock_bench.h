@@ -3,8 +3,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "experiments/run_trials.h"
-#include "experiments/sampling.h"
+#include "experiments/run/run_trials.h"
+#include "experiments/sampling/trial_sampler.h"
 #include "sim/stereo/stereo_rig.h"
 #include "tests/experiments/record_examples.h"
 

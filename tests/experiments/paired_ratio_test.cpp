@@ -1,4 +1,4 @@
-#include "experiments/paired_ratio.h"
+#include "experiments/analysis/paired_ratio.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/io/input_error.h"
-#include "experiments/paired_ratio_report.h"
+#include "experiments/report/paired_ratio_report.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/random/random_stream.h"
-#include "experiments/trial_record.h"
+#include "experiments/trial/trial_record.h"
 
 namespace fenestra::testing {
 

@@ -1,4 +1,4 @@
-#include "experiments/shard.h"
+#include "experiments/run/shard.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/store.h"
+#include "experiments/store/store.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "core/io/input_error.h"
-#include "experiments/cell_tally.h"
-#include "experiments/record_json.h"
-#include "experiments/result_files.h"
+#include "experiments/analysis/cell_tally.h"
+#include "experiments/run/result_files.h"
+#include "experiments/store/record_json.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

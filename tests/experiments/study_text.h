@@ -5,7 +5,7 @@
 
 #include "core/io/input_error.h"
 #include "core/io/yaml_reader.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
 
 namespace fenestra {
 

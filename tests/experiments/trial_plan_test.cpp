@@ -1,4 +1,4 @@
-#include "experiments/trial_plan.h"
+#include "experiments/analysis/trial_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/trial_writer.h"
+#include "experiments/run/trial_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/bounds/check.h"
+#include "experiments/check/bound_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "experiments/bounds/bound_text.h"
+#include "experiments/check/bound_text.h"
 #include "tests/experiments/bounds/simulated_rows.h"
 #include "tests/experiments/record_examples.h"
 

@@ -1,4 +1,4 @@
-#include "experiments/bounds/clustered_statistics.h"
+#include "experiments/statistics/clustered_statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/random/random_stream.h"
-#include "experiments/bounds/sign_flip_test.h"
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
+#include "experiments/statistics/sign_flip.h"
 
 namespace fenestra {
 namespace {

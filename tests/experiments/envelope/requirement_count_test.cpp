@@ -1,4 +1,4 @@
-#include "experiments/envelope/requirement_count.h"
+#include "experiments/analysis/requirement_count.h"
 
 #include <gtest/gtest.h>
 

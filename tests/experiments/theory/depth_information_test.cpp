@@ -1,4 +1,4 @@
-#include "experiments/theory/depth_information.h"
+#include "experiments/cramer_rao/depth_information.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "core/geometry/pose.h"
-#include "experiments/theory/rgbd_information.h"
+#include "experiments/cramer_rao/rgbd_information.h"
 #include "scenes/targets/paper_target.h"
 #include "sim/truth/viewpoint.h"
 
