@@ -6,7 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "renderers/tracing/pane_kernels.h"
 
 namespace fenestra {
 namespace {

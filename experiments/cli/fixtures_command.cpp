@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
@@ -14,10 +14,11 @@
 #include "experiments/fixtures/fixtures.h"
 #include "experiments/fixtures/staging_folder.h"
 #include "experiments/fixtures/trial_selection.h"
-#include "experiments/folder_size.h"
-#include "experiments/result_files.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
+#include "experiments/output/number_format.h"
+#include "experiments/run/folder_size.h"
+#include "experiments/run/result_files.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {
@@ -39,7 +40,7 @@ struct FixtureArguments {
 
 bool IsResult(const fs::path& path) {
   std::error_code error;
-  return path.extension() == ".sqlite" || fs::is_regular_file(path / "results.sqlite", error);
+  return path.extension() == ".sqlite" || fs::is_regular_file(path / ResultStore::kFileName, error);
 }
 
 void ReadStudyInto(FixtureOrder& order, const std::string& study) {
@@ -67,17 +68,9 @@ std::set<FixtureFormat> FormatsOf(const std::vector<std::string>& names) {
 void PrintTrials(const FixtureOrder& order, const std::vector<Cell>& cells) {
   for (const TrialKey& key : order.trials) {
     const Cell& cell = cells[static_cast<size_t>(key.cell)];
-    std::string levels;
-    for (const auto& [name, value] : cell.levels) {
-      levels += fmt::format(" {}={}", name, ToString(value));
-    }
-    fmt::print("{}/{} {} {}{}\n", key.cell, key.trial, cell.part, ToString(cell.sensor), levels);
+    fmt::print("{}/{} {} {}{}{}\n", key.cell, key.trial, cell.part, ToString(cell.sensor),
+               cell.levels.empty() ? "" : " ", LevelsText(cell.levels));
   }
-}
-
-std::string Size(uint64_t bytes) {
-  const double mega = static_cast<double>(bytes) / 1e6;
-  return mega < 1000.0 ? fmt::format("{:.0f} MB", mega) : fmt::format("{:.1f} GB", mega / 1000.0);
 }
 
 FixtureOrder OrderOf(const FixtureArguments& arguments) {
@@ -105,7 +98,7 @@ int MakeFixtures(const FixtureArguments& arguments) {
   const std::vector<Cell> cells = Cells(order.study);
   const std::string what = fmt::format("{} trial{} of '{}'", order.trials.size(),
                                        order.trials.size() == 1 ? "" : "s", order.study.name);
-  const std::string estimate = Size(EstimatedBytes(order, cells));
+  const std::string estimate = Bytes(static_cast<double>(EstimatedBytes(order, cells)));
   if (arguments.dry_run) {
     PrintTrials(order, cells);
     fmt::print("{}, about {}; nothing was written\n", what, estimate);
@@ -125,7 +118,8 @@ int MakeFixtures(const FixtureArguments& arguments) {
     fmt::print(stderr, "fenestra: interrupted; nothing was left in {}\n", order.out.string());
     return kFailure;
   }
-  fmt::print("{} are in {}, {}\n", what, order.out.string(), Size(FolderSize(order.out)));
+  fmt::print("{} are in {}, {}\n", what, order.out.string(),
+             Bytes(static_cast<double>(FolderSize(order.out))));
   return kDone;
 }
 

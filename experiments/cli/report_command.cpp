@@ -4,7 +4,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/print_result.h"
-#include "experiments/result_files.h"
+#include "experiments/run/result_files.h"
 
 namespace fenestra::cli {
 namespace {
@@ -22,9 +22,11 @@ void Report(const ReportArguments& arguments) {
   const std::filesystem::path file = StoreFile(arguments.results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
   const std::filesystem::path out = arguments.out.empty() ? file.parent_path() : arguments.out;
-  const std::vector<CellSummary> summaries = WriteResultFiles(store, out);
+  const Study study = StudyOf(store, file);
+  const std::vector<Cell> cells = Cells(study);
+  const std::vector<CellSummary> summaries = WriteResultFiles(store, study, cells, out);
   if (arguments.pictures) {
-    WriteResultPictures(store, file, out, arguments.jobs, MakerWith(arguments.plugins));
+    WriteResultPictures(store, study, cells, out, arguments.jobs, MakerWith(arguments.plugins));
   }
   PrintResult(summaries, out);
 }

@@ -1,0 +1,166 @@
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "scenes/paint.h"
+
+namespace fenestra {
+
+// Where no source is given, sizes and reflectances are ordinary ones, chosen by us.
+
+/// What a wall's texture shows; see MakeWallPattern.
+enum class WallFinish { kPlaster, kBrick, kConcrete, kCladding };
+
+/// Their names, in order: plaster, brick, ...
+inline const std::vector<std::string>& WallFinishNames() {
+  static const std::vector<std::string> names = {"plaster", "brick", "concrete", "cladding"};
+  return names;
+}
+
+struct WallOptions {
+  double width_m = 12.0;  ///< The wall is centred on the target.
+  double height_m = 8.0;
+  double thickness_m = 0.30;  ///< The reveal runs from the outer face to here.
+  Paint paint{.reflectance = 0.80, .reflectance_830nm = 0.80};  ///< Mean over the texture.
+  WallFinish finish = WallFinish::kPlaster;
+  double texture_contrast = 0.0;  ///< Standard deviation over mean; 0: no texture at all.
+  double texture_scale = 1.0;     ///< Multiplies all lengths of the texture.
+};
+
+/// The target, and what all windows share with it.
+struct WindowOptions {
+  double width_m = 1.0;  ///< Outer width of the frame, which fills the opening.
+  double height_m = 1.0;
+  double frame_width_m = 0.10;  ///< Seen from the front.
+  double frame_depth_m = 0.06;  ///< Along the wall's normal.
+  double setback_m = 0.0;       ///< Front of the frame behind the wall's outer face.
+  Paint frame{.reflectance = 0.05, .reflectance_830nm = 0.05};  ///< Of the target's frame.
+  int vertical_mullions = 0;    ///< Bars within the frame, of its paint and depth.
+  int horizontal_mullions = 0;  ///< The same, across.
+  double mullion_width_m = 0.04;
+  bool glass = true;            ///< A pane in the middle of the frame's depth.
+  bool double_glazing = false;  ///< Two panes, 16 mm apart.
+};
+
+/// Windows around the target, in rows and columns; all but the target have a frame of their own.
+struct GridOptions {
+  int windows_left = 0;  ///< Columns to the viewer's left of the target's.
+  int windows_right = 0;
+  int windows_above = 0;  ///< Rows above the target's.
+  int windows_below = 0;
+  double gap_x_m = 0.8;  ///< Wall between two openings, horizontally.
+  double gap_y_m = 1.2;
+  double other_windows_share = 1.0;  ///< Probability of each of the other windows.
+  Paint other_frame{.reflectance = 0.70, .reflectance_830nm = 0.70};
+};
+
+/// Behind each window is a room of its own.
+struct RoomOptions {
+  double depth_m = 4.0;  ///< Behind the wall's inner face.
+  Paint paint{.reflectance = 0.30, .reflectance_830nm = 0.30};
+  double lamp_lm = 0.0;                      ///< Of the ceiling lamp of the target's room; 0: none.
+  double other_lamps_lm = 0.0;               ///< Of the ceiling lamp of each other room.
+  double lamp_irradiance_830_per_lux = 0.0;  ///< See Lamp; 0: LED.
+};
+
+/// A slab below each window, which projects from the wall.
+struct SillOptions {
+  bool present = false;
+  double projection_m = 0.05;
+  double overhang_m = 0.04;  ///< Beyond the opening, on both sides.
+  double thickness_m = 0.04;
+  Paint paint{.reflectance = 0.45, .reflectance_830nm = 0.45};
+};
+
+/// A band above each window.
+struct LintelOptions {
+  bool present = false;
+  double height_m = 0.15;
+  double overhang_m = 0.12;
+  double projection_m = 0.0;
+  Paint paint{.reflectance = 0.45, .reflectance_830nm = 0.45};
+};
+
+/// Two open leaves beside each window, each as wide as half the opening.
+struct ShutterOptions {
+  bool present = false;
+  bool louvred = true;
+  Paint paint{.reflectance = 0.15, .reflectance_830nm = 0.40, .hue = Hue::kGreen};
+};
+
+/// A vertical pipe over the wall's whole height.
+struct DrainpipeOptions {
+  bool present = false;
+  double x_m = 0.9;  ///< Its axis to the right of the target's centroid.
+  double radius_m = 0.05;
+  double clearance_m = 0.03;  ///< Between wall and pipe.
+  Paint paint{.reflectance = 0.40, .reflectance_830nm = 0.40};
+};
+
+/// Cables that hang before the facade from edge to edge. They may cross the window.
+struct CableOptions {
+  int count = 0;
+  double height_m = 0.45;    ///< Of the lowest one's lowest point above the target's centroid.
+  double spacing_m = 0.06;   ///< From cable to cable, upwards.
+  double distance_m = 0.20;  ///< Of their axes from the wall; clear of the drainpipe.
+  double radius_m = 0.008;
+  double sag_m = 0.15;  ///< Mean; each cable's is drawn from 0.7 to 1.3 of it.
+  Paint paint{.reflectance = 0.06, .reflectance_830nm = 0.20};
+};
+
+/// A railing before the target: upright bars between two rails. It covers what is behind it.
+struct RailingOptions {
+  bool present = false;
+  double height_m = 0.40;       ///< Of the hand rail above the opening's lower edge.
+  double distance_m = 0.12;     ///< Of the bars' axes from the wall.
+  double bar_spacing_m = 0.11;  ///< Between axes; a child's head must not pass (DIN 18065: 12 cm).
+  double bar_radius_m = 0.008;
+  Paint paint{.reflectance = 0.08, .reflectance_830nm = 0.20};
+};
+
+/// A blind, let down by a given share. At other windows, if there is one at the target, it is let
+/// down at random.
+struct BlindOptions {
+  /// Outside: of the height of the frame's front; it covers frame and glass. Inside: of the height
+  /// of what the frame leaves open. 0: no blind.
+  double coverage = 0.0;
+  bool outside = false;
+  bool slatted = true;  ///< A venetian blind; otherwise a sheet.
+  double slat_pitch_m = 0.05;
+  double slat_tilt_rad = std::numbers::pi / 3.0;  ///< 0: flat and open. 60°: just closed.
+  Paint paint{.reflectance = 0.60, .reflectance_830nm = 0.60};
+};
+
+/// Clusters of leaves before the target's frame.
+struct PlantOptions {
+  double coverage = 0.0;  ///< Of the frame's front area, as seen along the normal. 0: no plant.
+  double leaf_length_m = 0.07;
+  /// Leaves reflect about 0.1 of green light and half of the near infra-red: E. B. Knipling,
+  /// Remote Sensing of Environment 1 (1970), 155-159.
+  Paint paint{.reflectance = 0.10, .reflectance_830nm = 0.50, .hue = Hue::kGreen};
+};
+
+/// A facade: a wall, a grid of windows of which one is the target, and what hangs on it. By default
+/// a plain wall with one real window: an opening, its reveal, a frame, a pane and a dark room.
+struct FacadeOptions {
+  bool with_target = true;  ///< false: wall in its place; other windows stay.
+  WallOptions wall{};
+  WindowOptions window{};
+  GridOptions grid{};
+  RoomOptions room{};
+  SillOptions sill{};
+  LintelOptions lintel{};
+  ShutterOptions shutters{};
+  DrainpipeOptions drainpipe{};
+  CableOptions cables{};
+  RailingOptions railing{};
+  BlindOptions blind{};
+  PlantOptions plant{};
+  /// Of all that is random. Equal numbers, whole or not, give equal facades. Each element draws
+  /// from a stream of its own: what is added to a facade does not change the rest.
+  double seed = 1.0;
+};
+
+}  // namespace fenestra

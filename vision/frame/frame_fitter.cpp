@@ -1,0 +1,229 @@
+#include "vision/frame/frame_fitter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vision/frame/adjustment/frame_support.h"
+#include "vision/frame/measurement/edge_points.h"
+#include "vision/frame/setback/settle_depth.h"
+
+namespace fenestra {
+namespace {
+
+// Edges are known to hundredths of a pixel, and where the model is wrong by one the loss would give
+// up a whole side at once. So first all points count as if they were so uncertain.
+constexpr double kRoughTolerance_px = 0.7;
+constexpr std::array<double, 3> kPlaneTolerances_px = {0.3, 0.0, 0.0};
+// Of a round after which others follow: up from here every third strip tells the frame as well.
+constexpr double kCoarse_px = 0.3;
+// Sides in relief are less straight and less parallel than a frame's own.
+constexpr std::array<double, 3> kReliefTolerances_px = {0.3, 0.1, 0.05};
+constexpr std::array<double, 3> kCoarseTolerances_px = {0.7, 0.7, 0.7};
+constexpr double kLeastReach_px = 1.6;
+// Of the places along the inner sides; with fewer the border is left out.
+constexpr double kLeastInnerSupport = 0.5;
+// Of each of them: upper and lower ones alone do not tell their depth.
+constexpr double kLeastOfInnerSide = 0.3;
+// With fewer in a first round it is not worth while to go on.
+constexpr double kHopelessSupport = 0.3;
+// Residuals where all sides are what they are taken for: so many of their standard deviations, or
+// what rounding makes of edges along rows. Between two planes, half a side's edges on either, both
+// are exceeded.
+constexpr double kMostScale = 2.5;
+constexpr double kMostOff_px = 0.03;
+// A relief of the inner sides of so many standard deviations is one.
+constexpr double kSignificant = 3.0;
+// Of the places along each outer side.
+constexpr double kFlatSupport = 0.5;
+// A wall's face or a sill stands up to some decimetre before the frame; see also kPanes.
+constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
+// Where reliefs are not known better than that, they are left out.
+constexpr double kMostRelief_m = 0.05;
+const FrameKnowledge kFree{
+    .size = {}, .outer_relief = {}, .inner_relief = ReliefPrior{.mean_m = -0.05, .sigma_m = 0.1}};
+
+// Width of the border in the image, where it is narrowest.
+double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
+  double least = 1e9;
+  for (const Side side : kAllSides) {
+    const auto outer = view.camera.Project(view.X_CL * frame.PointOn(side, Border::kOuter, 0.5));
+    const auto inner = view.camera.Project(view.X_CL * frame.PointOn(side, Border::kInner, 0.5));
+    if (outer && inner) least = std::min(least, (*outer - *inner).norm());
+  }
+  return least;
+}
+
+bool IsConsistent(const FrameFit& fit) {
+  double sum_px = 0.0;
+  double count = 0.0;
+  for (const std::vector<EdgePoint>& view : fit.points) {
+    for (const EdgePoint& point : view) sum_px += point.sigma_px;
+    count += static_cast<double>(view.size());
+  }
+  const double scale = fit.adjustment.scale;
+  return scale < kMostScale || scale * sum_px / count < kMostOff_px;
+}
+
+bool HasInnerSides(const FrameFit& fit) {
+  return fit.inner_support >= kLeastInnerSupport && fit.LeastInnerSupport() >= kLeastOfInnerSide;
+}
+
+RevealGrey RevealGreyOf(const FrameFitSettings& settings) {
+  return {.black_dn = settings.vignetting.black_dn, .min_contrast_dn = settings.min_contrast_dn};
+}
+
+double SigmaAlongNormal(const FrameFit& fit) {
+  const Eigen::Vector3d normal = fit.adjustment.frame.R_LO.col(2);
+  return std::sqrt(normal.dot(fit.adjustment.covariance.block<3, 3>(3, 3) * normal));
+}
+
+}  // namespace
+
+int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
+                         std::vector<EdgePoint>& points) {
+  EdgeTuning& tuning =
+      tunings_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
+  SideEdges edges = MeasureSide(views_[view], frame, request, tuning);
+  points.insert(points.end(), edges.points.begin(), edges.points.end());
+  tuning = edges.tuning;
+  return edges.places;
+}
+
+std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
+                                           const FrameKnowledge& knowledge, double tolerance_px,
+                                           bool is_last) {
+  FrameFit fit;
+  fit.points.resize(views_.size());
+  PlaceCounts places;
+  places.outer.resize(views_.size());
+  places.inner.resize(views_.size());
+  for (size_t view = 0; view < views_.size(); ++view) {
+    const double reach_px = border_ ? std::clamp(0.5 * BorderPixels(views_[view], frame),
+                                                 kLeastReach_px, settings_.reach_px)
+                                    : settings_.reach_px;
+    SideRequest request{
+        .side = Side::kTop,
+        .border = Border::kOuter,
+        .brighter = Brighter::kOutside,
+        .reach_px = reach_px,
+        .far_px = tolerance_px > 0.0 ? reach_px : std::max(reach_px, settings_.far_px),
+        .min_contrast_dn = settings_.min_contrast_dn,
+        .vignetting = settings_.vignetting,
+        .coarse = !is_last && tolerance_px >= kCoarse_px};
+    for (const Side side : kAllSides) {
+      const auto s = static_cast<size_t>(side);
+      request.side = side;
+      request.border = Border::kOuter;
+      request.brighter = Brighter::kOutside;
+      places.outer[view][s] = Measure(view, frame, request, fit.points[view]);
+      if (!border_) continue;
+      request.border = Border::kInner;
+      request.brighter = border_->brighter[s];
+      SideRequest inner = request;
+      inner.min_contrast_dn = settings_.border.min_contrast_dn;
+      places.inner[view][s] = Measure(view, frame, inner, fit.points[view]);
+    }
+  }
+  for (std::vector<EdgePoint>& points : fit.points) {
+    for (EdgePoint& point : points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
+  }
+  FrameKnowledge all = knowledge;
+  all.planes = settings_.planes;
+  auto adjustment = AdjustFrame(views_, fit.points, frame, all);
+  if (!adjustment) return std::nullopt;
+  fit.adjustment = std::move(*adjustment);
+  CountSupport(places, fit);
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& knowledge,
+                                            std::span<const double> tolerances_px) {
+  for (size_t i = 0; i < tolerances_px.size(); ++i) {
+    FrameKnowledge now = knowledge;
+    const bool is_last = i + 1 == tolerances_px.size();
+    if (is_last) now.size = settings_.size;
+    auto next = Round(fit.adjustment.frame, now, tolerances_px[i], is_last);
+    if (!next) return std::nullopt;
+    fit = std::move(*next);
+  }
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::FitRoughly(const FrameRectangle& start) {
+  return Round(start, {}, kRoughTolerance_px, false);
+}
+
+std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
+  auto fit = Round(start.adjustment.frame, {}, kPlaneTolerances_px[0], false);
+  // One round tells whether the inner sides are in that plane at all.
+  if (!fit || (border_ && fit->inner_support < kHopelessSupport)) return std::nullopt;
+  fit = Rounds(std::move(*fit), {}, std::span(kPlaneTolerances_px).subspan<1>());
+  if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
+  if (border_) {
+    if (!HasInnerSides(*fit) || !IsConsistent(*fit)) return std::nullopt;
+    // Nor may they be better explained by another one.
+    FrameKnowledge free = kFree;
+    free.planes = settings_.planes;
+    const auto freed = AdjustFrame(views_, fit->points, fit->adjustment.frame, free);
+    if (freed && std::abs(freed->frame.inner_relief_m) >
+                     kSignificant * std::sqrt(freed->covariance(13, 13))) {
+      return std::nullopt;
+    }
+  }
+  fit->is_in_one_plane = border_.has_value();
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::FitBeforePanes(const FrameFit& start) {
+  auto fit = Round(start.adjustment.frame, kFree, kPlaneTolerances_px[0], false);
+  if (fit && fit->inner_support >= kHopelessSupport) {
+    fit = Rounds(std::move(*fit), kFree, std::span(kPlaneTolerances_px).subspan<1>());
+  } else {
+    fit.reset();
+  }
+  if (!fit || fit->LeastSupport() < kFlatSupport || !HasInnerSides(*fit) || !IsConsistent(*fit)) {
+    border_.reset();
+    fit = Rounds(start, {}, kPlaneTolerances_px);
+  }
+  if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
+  return fit;
+}
+
+std::optional<FrameFit> FrameFitter::FitInRelief(const FrameFit& start) {
+  auto fit = Rounds(start, {.size = {}, .outer_relief = kWall, .inner_relief = kPanes},
+                    kReliefTolerances_px);
+  if (!fit || fit->LeastSupport() < settings_.min_side_support ||
+      SigmaAlongNormal(*fit) > kMostRelief_m) {
+    border_.reset();
+    fit = Rounds(start, {}, kCoarseTolerances_px);
+  }
+  if (fit) fit->is_flat = false;
+  return fit;
+}
+
+std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
+  FrameFit start = rough;
+  border_ = FindBorder(views_, start.adjustment.frame, settings_.border);
+  if (border_) start.adjustment.frame.border_m = border_->border_m;
+  std::optional<FrameFit> fit = FitInOnePlane(start);
+  if (!fit && border_) {
+    const auto border = border_;
+    fit = FitBeforePanes(start);
+    if (!fit) border_ = border;
+  }
+  if (!fit) fit = FitInRelief(start);
+  if (fit) fit->front = fit->adjustment.frame;
+  // Where planes were measured, they and what is known of their offset say where the front is.
+  if (fit && settings_.planes.empty()) SettleDepth(views_, RevealGreyOf(settings_), *fit);
+  if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
+  if (fit->LeastSupport() < settings_.min_side_support) {
+    return Miss{"unsupported_side",
+                fmt::format("only {:.0f} % of a side has an edge, {:.0f} % are needed",
+                            100.0 * fit->LeastSupport(), 100.0 * settings_.min_side_support)};
+  }
+  return *fit;
+}
+
+}  // namespace fenestra
