@@ -49,7 +49,7 @@ struct Registry {
   }
 };
 
-// What is registered stays: the one thing here that outlives its callers.
+// The registry is the only global state here; detectors stay registered.
 Registry& TheRegistry() {
   static Registry registry;
   return registry;

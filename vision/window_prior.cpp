@@ -144,7 +144,7 @@ std::optional<Miss> ObjectionOf(const WindowPrior& prior, const WindowEstimate& 
   }
   if (prior.expected_aspect > 0.0) {
     const double aspect = width_m / height_m;
-    // !(<=), so that a window without height is refused.
+    // Written as !(<=) so that a window without height is refused.
     if (!(std::abs(aspect / prior.expected_aspect - 1.0) <= prior.expected_aspect_tolerance)) {
       return Miss{"unexpected_shape", fmt::format("width over height is {:.2f} instead of {:.2f}",
                                                   aspect, prior.expected_aspect)};

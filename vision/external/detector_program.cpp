@@ -56,7 +56,8 @@ TimedDetection DetectorProgram::Ask(const Observation& observation,
     if (answer.stages.empty()) answer.stages = {{"answer", seconds}};
     return answer;
   } catch (const DetectorFailure& failure) {
-    // Who answers something else may be out of step; an error that is told is an orderly answer.
+    // A program that sends an unexpected answer may be out of step; a reported error is a proper
+    // answer.
     if (failure.kind() != "exception") {
       running_ = false;
       process_.Stop(0.0);

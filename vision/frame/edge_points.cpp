@@ -10,10 +10,10 @@
 namespace fenestra {
 namespace {
 
-// What the model of lens and light is worth, for a whole side: what blur that varies across an edge
-// and pixels that are no perfect squares leave, where noise does not hide it.
+// Error of the models of lens and light for a whole side, visible where there is little noise: blur
+// that varies across an edge, and pixels that are not perfect squares.
 constexpr double kModelSigma_px = 0.0004;
-// Residuals of more than this many times the side's median variance are of something else.
+// Strips whose mean square exceeds this multiple of the side's median show something else.
 constexpr double kMostExcess = 9.0;
 constexpr double kOwnExcess = 2.0;
 
@@ -25,7 +25,7 @@ double MedianSquare(const std::vector<StepFit>& fits) {
   return *middle;
 }
 
-// Relative change of the light across an edge, outwards [1/px].
+// Relative change of the light across an edge by vignetting, outwards [1/px].
 double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetting& vignetting) {
   const CameraParameters& p = camera.parameters();
   const Eigen::Vector2d focal_px(p.fx_px, p.fy_px);
@@ -35,8 +35,8 @@ double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetti
          (1.0 + tangent.squaredNorm());
 }
 
-// What lens and light are like in the middle of a side: of two strips where their number is even,
-// so that it does not matter which end they are counted from.
+// Normal and vignetting in the middle of a side: the mean of two strips if their number is even, so
+// that the result does not depend on the end from which strips are counted.
 struct Middle {
   Eigen::Vector2d normal;
   double falloff;
@@ -49,7 +49,7 @@ Middle MiddleOf(const CameraModel& camera, const std::vector<EdgeStrip>& strips,
           .falloff = 0.5 * (Falloff(camera, a, vignetting) + Falloff(camera, b, vignetting))};
 }
 
-// Strips with an edge, and their edges.
+// Strips with an edge, and the fits of their edges.
 struct Fitted {
   std::vector<EdgeStrip> strips;
   std::vector<StepFit> fits;

@@ -14,26 +14,27 @@ using Eigen::Vector3d;
 using Shared = BySharedTuning;
 using SharedMatrix = Eigen::Matrix<double, EdgeTuning::kShared, EdgeTuning::kShared>;
 
-constexpr double kLeastVariance = 1.0 / 12.0;  // Of a grey value that is rounded.
-constexpr double kLeastExcess = 1e-3;          // Pictures without noise.
+constexpr double kLeastVariance = 1.0 / 12.0;  // Variance of rounding to whole grey values.
+constexpr double kLeastExcess = 1e-3;          // Avoids zero for images without noise.
 constexpr double kSmallestBlur_px = 0.25;
 constexpr double kLargestBlur_px = 1.5;
 constexpr double kLargestSlope = 0.05;
 constexpr double kLargestBlurChange_px = 0.15;
-// What lenses and walls are like where an edge does not tell: standard deviations of a priori laws.
+// Standard deviations of the prior of lenses and walls, which matter where an edge does not
+// determine the parameters.
 constexpr double kBlurSigma_px = 0.2;
 constexpr double kBlurChangeSigma_px = 0.03;
-// Of the light's change per pixel: lenses' barrels and uneven light leave as much of vignetting.
+// Uncertainty of the vignetting's slope, because of lens barrels and uneven light.
 constexpr double kFalloffSigma = 0.0002;
-constexpr double kLeastSlopeSigma = 0.0001;  // Stray light, as a share of the step.
-constexpr double kTail = 0.5;                // Of a slope's departure from what is expected.
-// Where farther pixels' residuals are larger by this factor something else begins.
+constexpr double kLeastSlopeSigma = 0.0001;  // Effect of stray light, as a share of the step.
+constexpr double kTail = 0.5;                // Least sigma of a slope, as a share of its departure.
+// If the residuals of farther pixels are larger by this factor, something else begins there.
 constexpr double kUneven = 1.3;
 
 // Weighted mean of the strips' steps.
 class MeanRise {
  public:
-  // own: inverse of the information on a strip's unknowns.
+  // `own` is the inverse of the information on a strip's unknowns.
   void Add(const StepFit& fit, const Matrix3d& own, double excess) {
     const double variance = excess * own(1, 1) + std::pow(kRiseSpread * fit.rise_dn, 2);
     sum_ += fit.rise_dn / variance;
@@ -42,7 +43,7 @@ class MeanRise {
     ++count_;
   }
   double Value() const { return sum_ / weight_; }
-  // Of the mean edge, because of what is not known of the mean step.
+  // Variance of the mean edge because of the uncertainty of the mean step.
   double EdgeVariance() const { return std::pow(edge_by_rise_ / count_, 2) / weight_; }
 
  private:
@@ -90,7 +91,7 @@ class Evenness {
   std::array<double, 2> counts_ = {};
 };
 
-// What blur and slopes are before the side is seen.
+// Prior of blur and slopes.
 struct Expected {
   Shared mean = EdgeTuning{}.shared;
   Shared sigma;
@@ -114,7 +115,7 @@ Expected ExpectedOf(const std::vector<StepFit>& fits, double falloff, double bla
   return expected;
 }
 
-// Blur and slopes, with the strips' own unknowns eliminated.
+// Normal equations of blur and slopes, with the strips' own unknowns eliminated.
 class SharedEquations {
  public:
   SharedEquations(const StepModel& model, const Shared& now, const Expected& expected)
@@ -158,7 +159,7 @@ class SharedEquations {
     return inverse;
   }
   Shared Step() const { return information_.ldlt().solve(gradient_); }
-  // Of the mean edge, because of what is not known of blur and slopes.
+  // Variance of the mean edge because of the uncertainty of blur and slopes.
   double EdgeVariance() const {
     const Shared mean = edge_by_shared_ / count_;
     return mean.dot(information_.ldlt().solve(mean));

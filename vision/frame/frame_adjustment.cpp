@@ -43,7 +43,7 @@ class Adjustment {
         knowledge_(knowledge),
         fitted_(FittedParameters(points, knowledge)) {}
 
-  // False if the points cannot be seen from there.
+  // Returns false if points cannot be projected.
   bool Start(const FrameRectangle& frame) {
     frame_ = frame;
     auto residuals = EdgeResiduals(views_, points_, frame);
@@ -96,7 +96,7 @@ class Adjustment {
     const auto parameters = static_cast<double>(fitted_.size());
     if (count <= 1.5 * parameters) return std::nullopt;
     result.scale = std::sqrt(squares / (count - parameters));
-    // Edges may be off by more than their noise; measured planes are not, because of that.
+    // Edges may be off by more than their noise; this does not apply to measured planes.
     const double excess = std::max(1.0, result.scale * result.scale);
     const Eigen::MatrixXd information = Equations(excess).matrix(fitted_, fitted_);
     const Eigen::LDLT<Eigen::MatrixXd> decomposition(information);
@@ -121,7 +121,7 @@ class Adjustment {
     return loss_.Of(residuals) + LossOfKnowledge(frame, knowledge_, loss_.scale * loss_.scale);
   }
 
-  // Of the fitted parameters; the others stay.
+  // Covariance of the fitted parameters; the others remain zero.
   Vector Solve(const NormalEquations& equations, double damping) const {
     Eigen::MatrixXd matrix = equations.matrix(fitted_, fitted_);
     matrix.diagonal() *= 1.0 + damping;

@@ -12,39 +12,40 @@
 namespace fenestra {
 namespace {
 
-// Edges are known to hundredths of a pixel, and where the model is wrong by one the loss would give
-// up a whole side at once. So first all points count as if they were so uncertain.
+// Edges are known to hundredths of a pixel, so where the model is wrong by a pixel the loss would
+// reject a whole side at once. The first rounds therefore treat all points as if they had this
+// uncertainty.
 constexpr double kRoughTolerance_px = 0.7;
 constexpr std::array<double, 3> kPlaneTolerances_px = {0.3, 0.0, 0.0};
-// Of a round after which others follow: up from here every third strip tells the frame as well.
+// Tolerance from which on every third strip suffices in a round that is not the last.
 constexpr double kCoarse_px = 0.3;
 // Sides in relief are less straight and less parallel than a frame's own.
 constexpr std::array<double, 3> kReliefTolerances_px = {0.3, 0.1, 0.05};
 constexpr std::array<double, 3> kCoarseTolerances_px = {0.7, 0.7, 0.7};
 constexpr double kLeastReach_px = 1.6;
-// Of the places along the inner sides; with fewer the border is left out.
+// Least share of the places along the inner sides; with less, the border is left out.
 constexpr double kLeastInnerSupport = 0.5;
-// Of each of them: upper and lower ones alone do not tell their depth.
+// Least share for each inner side, since the upper and lower ones alone do not determine their
+// depth.
 constexpr double kLeastOfInnerSide = 0.3;
-// With fewer in a first round it is not worth while to go on.
+// With less in a first round, further rounds are futile.
 constexpr double kHopelessSupport = 0.3;
-// Residuals where all sides are what they are taken for: so many of their standard deviations, or
-// what rounding makes of edges along rows. Between two planes, half a side's edges on either, both
-// are exceeded.
+// Largest residuals of a correct model: in standard deviations, or the effect of rounding on edges
+// along rows. If half of a side's edges lie in either of two planes, both are exceeded.
 constexpr double kMostScale = 2.5;
 constexpr double kMostOff_px = 0.03;
-// A relief of the inner sides of so many standard deviations is one.
+// A relief of the inner sides is significant from this many standard deviations on.
 constexpr double kSignificant = 3.0;
-// Of the places along each outer side.
+// Least share of the places along each outer side for a frame in one plane.
 constexpr double kFlatSupport = 0.5;
-// A wall's face or a sill stands up to some decimetre before the frame; see also kPanes.
+// A wall's face or a sill is up to about a decimetre in front of the frame; see also kPanes.
 constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
-// Where reliefs are not known better than that, they are left out.
+// Reliefs that are less certain than this are left out.
 constexpr double kMostRelief_m = 0.05;
 const FrameKnowledge kFree{
     .size = {}, .outer_relief = {}, .inner_relief = ReliefPrior{.mean_m = -0.05, .sigma_m = 0.1}};
 
-// Width of the border in the image, where it is narrowest.
+// Width of the border in the image where it is narrowest.
 double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
   double least = 1e9;
   for (const Side side : kAllSides) {
@@ -163,7 +164,7 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
   if (border_) {
     if (!HasInnerSides(*fit) || !IsConsistent(*fit)) return std::nullopt;
-    // Nor may they be better explained by another one.
+    // Another plane must not explain them better.
     FrameKnowledge free = kFree;
     free.planes = settings_.planes;
     const auto freed = AdjustFrame(views_, fit->points, fit->adjustment.frame, free);
@@ -215,7 +216,7 @@ std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
   }
   if (!fit) fit = FitInRelief(start);
   if (fit) fit->front = fit->adjustment.frame;
-  // Where planes were measured, they and what is known of their offset say where the front is.
+  // If planes were measured, they and their known offset determine where the front is.
   if (fit && settings_.planes.empty()) SettleDepth(views_, RevealGreyOf(settings_), *fit);
   if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
   if (fit->LeastSupport() < settings_.min_side_support) {

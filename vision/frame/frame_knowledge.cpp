@@ -5,7 +5,7 @@
 namespace fenestra {
 namespace {
 
-// A parameter that is known to some extent.
+// A parameter with a prior.
 struct Known {
   int parameter;
   double value;
@@ -53,7 +53,7 @@ double LossOfKnown(const FrameRectangle& frame, const std::vector<Known>& known)
   return sum;
 }
 
-// m of a measured plane as the frame has it, minus the measured one.
+// m as the frame predicts it, minus the measured m.
 Eigen::Vector3d PlaneResidual(const FrameRectangle& frame, const PlaneMeasurement& plane) {
   const Eigen::Vector3d normal = frame.R_LO.col(2);
   return normal / (normal.dot(frame.p_LO) + plane.relief_m) - plane.m;

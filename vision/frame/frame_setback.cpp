@@ -12,14 +12,15 @@ namespace {
 
 constexpr double kShallowest_m = 0.05;
 constexpr double kDeepest_m = 0.30;
-constexpr double kNarrowest_px = 4.5;  // Of a reveal that is told from the blur beside it.
-constexpr double kClear_px = 2.0;      // From an edge, so that its blur is left behind.
-const double kDarker = std::log(1.5);  // From reveal to frame; paints differ by more.
+constexpr double kNarrowest_px =
+    4.5;  // Narrowest reveal that can be separated from the blur beside it.
+constexpr double kClear_px = 2.0;      // Distance from an edge beyond its blur.
+const double kDarker = std::log(1.5);  // Step from reveal to frame; paints differ by more.
 
 struct SideView {
-  double inwards_m;   // h: from the side to where the camera stands, along the front.
+  double inwards_m;   // h, from the side to the camera, along the front.
   double distance_m;  // z.
-  double pixel_m;     // On the rectangle, across the side.
+  double pixel_m;     // Size of a pixel on the rectangle, across the side.
   double Inset(double depth_m) const { return inwards_m * depth_m / (distance_m + depth_m); }
 };
 
@@ -47,7 +48,7 @@ std::optional<double> LightAt(const CameraView& view, FrameRectangle frame, Side
   return std::max(1.0, *grey - black_dn);
 }
 
-// Natural logarithm of the one over the other, 0 where noise alone may part them.
+// Natural logarithm of the ratio, or 0 if noise alone may explain the difference.
 double LogRatio(double bright, double dark, double min_contrast_dn) {
   return std::abs(bright - dark) < min_contrast_dn ? 0.0 : std::log(bright / dark);
 }

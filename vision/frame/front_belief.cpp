@@ -8,15 +8,15 @@ namespace fenestra {
 namespace {
 
 constexpr double kDeepest_m = 0.20;
-// A rectangle of sides at several depths may be behind all of them.
+// A rectangle fitted to sides at several depths may be behind all of them.
 constexpr double kNearest_m = -0.10;
 constexpr double kStep_m = 0.002;
 constexpr double kFrontSigma_m = 0.004;  // Rounded or chamfered edges.
-// What is seen may be the front edge of the opening or the rear one, that of a pane between or of
-// the lining behind.
+// A measured edge may be the front or the rear edge of the opening, that of a pane in between, or
+// that of the lining behind.
 constexpr double kThickest_m = 0.12;
 constexpr int kThicknesses = 12;
-// Of the evenly spread places within a step.
+// Standard deviation of a uniform distribution within a step of the thickness.
 const double kWithinStep_m = kThickest_m / kThicknesses / std::sqrt(12.0);
 constexpr double kOther = 0.05;
 constexpr double kOtherRange_m = 0.4;
@@ -37,7 +37,7 @@ double LikelihoodOf(const std::vector<DepthSight>& sights, double setback_m, dou
   return product;
 }
 
-// Over what the thickness may be.
+// Marginalises over the thickness.
 double Likelihood(const std::vector<DepthSight>& sights, double setback_m) {
   double sum = 0.0;
   for (int i = 0; i < kThicknesses; ++i) {

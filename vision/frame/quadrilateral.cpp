@@ -9,13 +9,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSmallestTolerance = 0.01;  // Of the perimeter.
+constexpr double kSmallestTolerance = 0.01;  // Share of the perimeter.
 constexpr double kLargestTolerance = 0.10;
-constexpr double kEndShare = 0.12;  // Of a side, left out at each end of a line fit.
+constexpr double kEndShare = 0.12;  // Share of a side that is left out at each end of a line fit.
 
 struct Line {
   Vector2d point;
-  Vector2d direction;  // Unit.
+  Vector2d direction;  // Unit vector.
 };
 
 double Cross(const Vector2d& a, const Vector2d& b) {
@@ -56,7 +56,7 @@ std::optional<Quadrilateral> FromSides(const std::array<Line, 4>& sides) {
 
 std::optional<Quadrilateral> FourCorners(const std::vector<cv::Point>& contour) {
   std::vector<cv::Point> hull;
-  // OpenCV speaks of a y axis that points up, so its "counter-clockwise" is clockwise as seen.
+  // OpenCV assumes a y axis that points up, so its "counter-clockwise" is clockwise as seen.
   cv::convexHull(contour, hull, false);
   const double perimeter = cv::arcLength(hull, true);
   std::vector<cv::Point> polygon;
@@ -75,7 +75,7 @@ std::optional<Quadrilateral> FourCorners(const std::vector<cv::Point>& contour) 
   return q;
 }
 
-// The contour's points beside the side from p to q, or the side itself where there are too few.
+// Returns the contour's points near the side from p to q, or the side itself if there are too few.
 Line FitSide(const std::vector<cv::Point>& contour, const Vector2d& p, const Vector2d& q) {
   const double length = (q - p).norm();
   const Vector2d along = (q - p) / length;
@@ -116,7 +116,7 @@ std::optional<Quadrilateral> Inset(const Quadrilateral& quadrilateral, double ha
     sides[i] = {quadrilateral[i] + reach_px * inwards, along};
   }
   const auto inset = FromSides(sides);
-  // Past its own centre a quadrilateral turns inside out, yet stays convex.
+  // Beyond its centre a quadrilateral turns inside out but remains convex.
   for (size_t i = 0; inset && i < 4; ++i) {
     const Vector2d side = quadrilateral[(i + 1) % 4] - quadrilateral[i];
     if (side.dot((*inset)[(i + 1) % 4] - (*inset)[i]) <= 0.0) return std::nullopt;

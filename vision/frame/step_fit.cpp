@@ -37,7 +37,7 @@ StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixe
   const double tau = Along(share);
   StepValue value;
   value.p = at.p;
-  value.by_shape = {at.by_sigma, at.ramp, x - at.ramp};  // As R(x) - R(-x) = x.
+  value.by_shape = {at.by_sigma, at.ramp, x - at.ramp};  // Since R(x) - R(-x) = x.
   const double shape =
       at.p + (tuning_.blur_change_px() * tau + tuning_.blur_bend_px() * Bend(tau)) * at.by_sigma +
       tuning_.slope_outside() * at.ramp + tuning_.slope_inside() * (x - at.ramp);

@@ -10,13 +10,13 @@ namespace fenestra {
 namespace {
 
 constexpr double kAtSide_px = 2.0;
-constexpr double kClear_px = 2.0;  // Of an edge within, from the side's own.
-// Of the strongest edge: what is less may be a change of the light.
+constexpr double kClear_px = 2.0;  // Distance of an inner edge from the side's own.
+// Share of the strongest edge; a weaker one may be a change of the light.
 constexpr double kLeastShare = 0.03;
 constexpr double kInPlaneSigmas = 3.0;
 constexpr double kInPlane_m = 0.004;
-constexpr double kApart_m = 0.02;  // A reveal that is told from blur.
-// Where sides that are blends of the wall's and the frame's edges seem to be.
+constexpr double kApart_m = 0.02;  // Shallowest reveal that can be separated from blur.
+// Range of the apparent depth of sides that are blends of the wall's and the frame's edges.
 constexpr double kBlendRange_m = 0.05;
 
 UprightEdges EdgesOf(const CameraView& first, const CameraView& second, const FrameRectangle& frame,
@@ -53,8 +53,8 @@ void AddSights(const UprightEdges& edges, bool in_plane, std::vector<DepthSight>
   }
 }
 
-// The frame's own edge on the side that is not looked across, if it is told from the wall's on the
-// other.
+// The frame's own edge on the side that is not looked across, if its depth differs significantly
+// from that of the wall's edge on the other side.
 std::optional<DepthSight> FarSide(const UprightPair& pair) {
   if (!pair.AreFarAndNear()) return std::nullopt;
   const bool left_is_near = pair.left.own->is_looked_across;
@@ -113,7 +113,7 @@ double UprightPair::Foremost() const {
 
 UprightPair FindUprightEdges(const CameraView& left, const CameraView& right,
                              const FrameRectangle& frame) {
-  // Each side from the view that is on it, so that mirrored views show mirrored edges.
+  // Each side is searched from the view on that side, so that mirrored views give mirrored edges.
   return {EdgesOf(left, right, frame, Side::kLeft), EdgesOf(right, left, frame, Side::kRight)};
 }
 

@@ -3,7 +3,7 @@
 namespace fenestra {
 namespace {
 
-// sin² of the smallest angle between diagonals that are not called parallel.
+// sin² of the smallest angle between diagonals that do not count as parallel.
 constexpr double kSmallestSine2 = 1e-12;
 
 bool IsInside(double parameter) {

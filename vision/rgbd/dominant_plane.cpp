@@ -13,7 +13,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 constexpr int kTriples = 100;
 constexpr size_t kScoredPoints = 1000;
-// A plane closer to the camera's centre than this is seen edge on.
+// A plane closer to the camera's centre than this is seen edge-on.
 constexpr double kClosestPlaneM = 1e-6;
 
 std::optional<Plane> Oriented(const Eigen::Vector3d& normal_K, const Eigen::Vector3d& p_KQ) {
@@ -67,7 +67,8 @@ Points EvenlySpaced(const Points& points_K) {
 }  // namespace
 
 Eigen::Vector2d Plane::Coordinates(const Eigen::Vector3d& p_KQ) const {
-  // x: the camera's +x axis laid into the plane, or its +y axis where the plane is seen along x.
+  // The first axis is the camera's +x axis projected onto the plane, or its +y axis if the plane is
+  // seen along x.
   const bool along_x = std::abs(normal_K.x()) > 0.9;
   const Eigen::Vector3d axis = along_x ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d right = (axis - normal_K.dot(axis) * normal_K).normalized();

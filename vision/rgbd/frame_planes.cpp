@@ -14,42 +14,44 @@ using Eigen::Vector3d;
 
 constexpr int kLeastWall = 100;
 constexpr int kLeastFront = 30;
-constexpr double kWallReach = 1.5;  // Of the frame's longer side, on each side of it.
-constexpr double kFree_m = 1.0;     // Standard deviation of an offset that is not known.
+constexpr double kWallReach = 1.5;  // In longer sides of the frame, on each side of it.
+constexpr double kFree_m = 1.0;     // Standard deviation of an unknown offset.
 constexpr double kOtherwise = 4.0;
 constexpr double kOtherwise_m = 0.015;
-// What is so far behind the front or before it is no part of a frame.
+// Points this far behind or in front of the front are not part of a frame.
 constexpr double kOff_m = 0.15;
 constexpr double kOffSigmas = 6.0;
 constexpr int kLeastOff = 15;
-constexpr double kLeastOpen = 0.3;  // Of the pixels between the edges.
-// Of the pixels within the frame's edges. Something may stand before it that hides a part.
+constexpr double kLeastOpen = 0.3;  // Share of the pixels between the edges.
+// Share of the pixels within the frame's edges. An object in front of the frame may hide a part of
+// it.
 constexpr double kLeastBefore = 0.6;
-// Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
+// Share of the front's pixels. If black paint returns fewer, these are the ones that noise has
+// moved.
 constexpr double kLeastReturns = 0.6;
-// Down to here the mean of them is right to this.
+// Down to this share, the mean of the returns is accurate to kMovedSigma_m.
 constexpr double kFewReturns = 0.3;
 constexpr double kMovedSigma_m = 0.02;
-// A frame that is not where it was said to be is something else.
+// A frame this far from where the settings place it is something else.
 constexpr double kUnexpected = 5.0;
 constexpr double kTold_m = 0.01;
 constexpr double kInlier = 3.5;
-constexpr double kInPlane = 0.9;  // Of the points of a surface.
+constexpr double kInPlane = 0.9;  // Share of the points of a surface.
 
-// The plane parallel to this one and `setback_m` behind it.
+// Returns the plane parallel to this one and `setback_m` behind it.
 Vector3d Behind(const Vector3d& m, double setback_m) {
   return m.normalized() / (1.0 / m.norm() + setback_m);
 }
 
 PlaneMeasurement WallMeasurement(const DepthPlane& wall, double setback_m, double sigma_m) {
-  // m = n/(n·p + relief), so that dm/drelief = |m| m, as n points towards the camera.
+  // m = n/(n·p + relief), so that dm/drelief = |m| m, since n points towards the camera.
   const Vector3d by_setback = wall.m.norm() * wall.m;
   const Matrix3d covariance =
       wall.information.inverse() + sigma_m * sigma_m * by_setback * by_setback.transpose();
   return {.m = wall.m, .information = covariance.inverse(), .relief_m = setback_m};
 }
 
-// Of the front behind the wall, by the depth between the frame's edges.
+// Setback of the front behind the wall, measured by the depth between the frame's edges.
 struct Offset {
   double setback_m;
   double sigma_m;
@@ -66,13 +68,13 @@ std::optional<Offset> MeasureOffset(const std::vector<DepthPoint>& front, const 
   const auto middle = behind.begin() + static_cast<std::ptrdiff_t>(behind.size() / 2);
   std::nth_element(behind.begin(), middle, behind.end());
   const double independent = std::max(1.0, static_cast<double>(front.size()) / noise.window_points);
-  // A median has π/2 times a mean's variance.
+  // The variance of a median is π/2 times that of a mean.
   const double sigma_m =
       wall.sigma / (inverse_depth * inverse_depth) * std::sqrt(1.57 / independent);
   return Offset{*middle, sigma_m};
 }
 
-// Whether points that are not the wall's are in its plane.
+// Tells whether points outside the wall lie in its plane.
 bool AreInPlane(const std::vector<DepthPoint>& points, const DepthPlane& wall,
                 const DepthNoise& noise) {
   const auto offset = MeasureOffset(points, wall, noise);
@@ -115,7 +117,7 @@ bool StandsBefore(const FrameDepth& depth, const DepthPlane& wall) {
   return before >= kLeastOff && before > kLeastBefore * (depth.border_pixels + depth.inside_pixels);
 }
 
-// What is seen of a frame's front.
+// Depth of a frame's front.
 struct Front {
   bool is_whole = false;
   std::optional<Offset> offset;
@@ -165,7 +167,7 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
     return Miss{"stands_before", "what is seen within the frame's edges is far before the wall"};
   }
   const Front seen = SeeFront(found.points, found.wall, settings.noise);
-  // What has wall within it is painted on it.
+  // A frame with wall within it is painted on the wall.
   const bool is_painted = opening_is_in_plane && settings.setback_m == 0.0;
   found.setback_sigma_m = is_painted ? 0.0 : settings.setback_sigma_m;
   double fitted_sigma_m = settings.fits_setback ? found.setback_sigma_m : 0.0;

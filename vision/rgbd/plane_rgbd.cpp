@@ -21,12 +21,14 @@
 namespace fenestra {
 namespace {
 
-// Half a depth pixel's window, and a pixel for the place of its evidence.
+// Half of a depth pixel's matching block, and a pixel for the uncertainty of the place that
+// dominates the match.
 constexpr double kClearWindows = 0.5;
 constexpr double kClear_px = 1.0;
 constexpr double kLeastOfColor = 0.5;
-// A frame is of one paint: of its sides' grey values, the brightest over the darkest, above what
-// noise and blur leave of black. Light on a wall hardly differs by so much within a window.
+// Largest ratio of the grey values of a frame's brightest and darkest sides, above what noise and
+// blur leave of black. A frame has one paint, and the light on a wall hardly varies by so much
+// within a window.
 constexpr double kMostUneven = 4.0;
 constexpr double kBlack_dn = 8.0;
 
@@ -135,7 +137,7 @@ Detection PlaneRgbdDetector::Detect(const Observation& observation, StageLog& lo
 std::variant<std::vector<PlaneSeed>, Miss> PlaneRgbdDetector::Seeds(
     const std::vector<DarkQuadrilateral>& candidates, const std::vector<DepthPoint>& points) const {
   if (candidates.empty()) return Miss{"no_quadrilateral", "no four edges around something dark"};
-  // The same angle in the colour image.
+  // The same angle as clear_px_, in pixels of the colour image.
   const double clear_px =
       clear_px_ * pinhole_.parameters().fx_px / calibration_.depth.parameters().fx_px;
   PlaneSeeds found = FindPlaneSeeds(

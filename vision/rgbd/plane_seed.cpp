@@ -7,10 +7,10 @@ namespace fenestra {
 namespace {
 
 constexpr int kLeastPoints = 40;
-constexpr double kLeastShare = 0.4;  // Of them, on the plane.
+constexpr double kLeastShare = 0.4;  // Least share of them on the plane.
 constexpr uint64_t kTriples = 1;     // The same samples for every image.
 
-// Of the points around a quadrilateral one in two is enough to find their plane.
+// Half of the points around a quadrilateral are enough to find their plane.
 std::vector<DepthPoint> EverySecondRow(const std::vector<DepthPoint>& points) {
   std::vector<DepthPoint> rows;
   rows.reserve(points.size());

@@ -25,8 +25,8 @@ FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3
   FrameRectangle moved = frame;
   if (!(setback_m > 0.0)) return moved;
   const Eigen::Vector3d p_OC = frame.R_LO.transpose() * (p_LC - frame.p_LO);
-  const double share = setback_m / p_OC.z();  // Of the way from the front to the camera.
-  std::array<double, 4> reach_m = {};         // Of each side from the middle.
+  const double share = setback_m / p_OC.z();  // Share of the way from the front to the camera.
+  std::array<double, 4> reach_m = {};         // Distance of each side from the middle.
   for (size_t i = 0; i < 4; ++i) {
     const double sign = i < 2 ? 1.0 : -1.0;  // Top and right; bottom and left.
     const bool level = i % 2 == 0;

@@ -41,7 +41,8 @@ FourVertices OrderedAsSeen(const FourVertices& p_CV) {
   std::vector<Vector2d> seen;
   for (const Eigen::Vector3d& p : p_CV) seen.push_back(p.head<2>() / p.z());
   FourVertices ordered = p_CV;
-  // y points down in the image: a positive area goes round clockwise, from top left to top right.
+  // y points down in the image, so a positive area means clockwise order, from top left to top
+  // right.
   if (SignedArea(seen) < 0.0) {
     std::reverse(ordered.begin(), ordered.end());
     std::reverse(seen.begin(), seen.end());

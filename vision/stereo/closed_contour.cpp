@@ -5,8 +5,8 @@
 namespace fenestra {
 namespace {
 
-// An open curve is traced there and back and encloses next to nothing, a closed convex one all of
-// its hull; a ragged one somewhat less.
+// An open curve is traced there and back and encloses almost no area, a closed convex one encloses
+// its whole hull, and a ragged one slightly less.
 constexpr double kLeastShareOfHull = 0.8;
 
 }  // namespace
@@ -21,8 +21,8 @@ cv::Mat1b DetectEdges(const cv::Mat1b& depth_gray, const CannyThresholds& thresh
 }
 
 std::optional<std::vector<cv::Point>> LargestClosedContour(const cv::Mat1b& edges) {
-  // Where two edges meet, non-maximum suppression may leave a gap of a few pixels. A
-  // closing fills it and moves nothing of a convex outline.
+  // Where two edges meet, non-maximum suppression may leave a gap of a few pixels. Closing fills it
+  // without moving a convex outline.
   cv::Mat1b joined;
   cv::morphologyEx(edges, joined, cv::MORPH_CLOSE,
                    cv::getStructuringElement(cv::MORPH_RECT, {5, 5}));

@@ -13,7 +13,7 @@ constexpr double kFarthestGray = 255.0;
 
 cv::Mat1f DepthFromDisparity(const cv::Mat1f& disparity, const RectifiedCamera& camera) {
   cv::Mat1f depth_m;
-  // cv::divide of floats gives infinity for d = 0.
+  // cv::divide yields infinity for d = 0.
   cv::divide(camera.f_px * camera.baseline_m, disparity, depth_m);
   depth_m.setTo(0.0f, disparity <= 0.0f);
   return depth_m;
@@ -41,8 +41,8 @@ DepthPatch CloseGaps(const cv::Mat1f& disparity, const std::vector<cv::Point>& h
   for (const cv::Point& p : hull) hull_in_box.push_back(p - box.tl());
   cv::Mat1b filled(box.size(), 0);
   cv::fillConvexPoly(filled, hull_in_box, 255);
-  // Eroding by a box twice the ring's thickness wide leaves the opening; outside nothing is filled,
-  // so that a hull at the image's border has a ring there, too.
+  // Eroding by a box twice as wide as the ring leaves the opening. The area outside the image
+  // counts as empty, so that a hull at the image's border has a ring there, too.
   cv::Mat1b opening;
   const int side = 2 * thickness_px + 1;
   cv::erode(filled, opening, cv::getStructuringElement(cv::MORPH_RECT, {side, side}), {-1, -1}, 1,

@@ -11,10 +11,10 @@
 namespace fenestra {
 namespace {
 
-// Of the outer sides' contrast. Between frame and opening there is little, in front of a dark room;
-// but all of their length counts.
+// Least contrast of the inner sides relative to the outer ones. There is little contrast between
+// frame and opening in front of a dark room, but the mean is over the whole length of the sides.
 constexpr double kInnerContrast = 0.4;
-constexpr double kOpening = 0.5;  // Of the places along the inner sides.
+constexpr double kOpening = 0.5;  // Least share of the places along the inner sides.
 constexpr double kLight = 0.9;    // See BrightBand.
 
 const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
@@ -152,7 +152,7 @@ std::optional<Miss> EdgeStereoDetector::Objection(std::span<const CameraView> vi
   if (auto objection = ObjectionToClarity(views, frame, darkness_, options_.search.min_darkness)) {
     return objection;
   }
-  // Without an opening of its own it is one: that of a light frame.
+  // A dark area without an opening of its own is the opening of a light frame.
   if (fit.inner_support < kOpening && BrightBand(views, frame, options_.black_dn) > kLight) {
     return Miss{"light_frame", "what surrounds it is lighter than the wall"};
   }

@@ -97,8 +97,8 @@ StereoRectification::View StereoRectification::MakeView(const CameraModel& sourc
 RectifiedPair StereoRectification::Rectify(const StereoObservation& observation) const {
   CheckSize(observation.left, size_, "left");
   CheckSize(observation.right, size_, "right");
-  // Outside the sensor the nearest pixel is repeated: a constant would draw an edge around the
-  // picture, and edges match.
+  // Outside the sensor the nearest pixel is repeated, because a constant would draw an edge around
+  // the image, and edges match.
   RectifiedPair pair;
   cv::remap(observation.left, pair.left, left_.map, left_.interpolation, cv::INTER_LINEAR,
             cv::BORDER_REPLICATE);

@@ -14,7 +14,7 @@ bool IsOn(const DisparityPlane& plane, const DisparitySample& s, double toleranc
   return std::abs(plane.Residual(s)) <= tolerance_px;
 }
 
-// Pixels from the one that is asked for, so that its own row is (0, 0, 1).
+// Pixels are relative to the requested one, whose own row is therefore (0, 0, 1).
 Vector3d Row(const DisparitySample& s, const Eigen::Vector2d& pixel) {
   return {s.u_px - pixel.x(), s.v_px - pixel.y(), 1.0};
 }

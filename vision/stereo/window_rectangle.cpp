@@ -9,7 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The point of diagonal V0 V2 that is nearest to diagonal V1 V3; in one plane they meet there.
+// The point of diagonal V0 V2 nearest to diagonal V1 V3, i.e. their intersection if they are
+// coplanar.
 Vector3d IntersectDiagonals(const std::array<Vector3d, 4>& V) {
   const Vector3d p = V[2] - V[0];
   const Vector3d q = V[3] - V[1];
@@ -36,7 +37,8 @@ std::optional<WindowEstimate> WindowOnPlane(const Quadrilateral& corners_px,
 }
 
 WindowEstimate Rotated(const Eigen::Matrix3d& R_CF, const WindowEstimate& estimate_F) {
-  WindowEstimate estimate = estimate_F;  // Score and all else that does not turn.
+  WindowEstimate estimate =
+      estimate_F;  // Copies the score and everything else that does not rotate.
   estimate.p_CO = R_CF * estimate_F.p_CO;
   for (size_t i = 0; i < 4; ++i) estimate.p_CV[i] = R_CF * estimate_F.p_CV[i];
   estimate.normal_C = R_CF * estimate_F.normal_C;
