@@ -18,10 +18,11 @@ using Table = ParameterTable<Options>;
 const Table& EdgeStereoParameters() {
   static const Table table = [] {
     Table made;
-    made.Number("rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
-                "0 shows only what both sensors saw, 1 all that either saw");
+    made.Number(
+        "rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
+        "Zoom of rectification: 0 keeps only what both sensors saw, 1 all that either saw.");
     made.Adopt<FrameSearchOptions>(FrameSearchParameters(), FENESTRA_FIELD(search));
-    made.Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "grey value without light");
+    made.Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "Grey value without light.");
     made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
     return made;
   }();
