@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/calibration_io.h"
-#include "core/input_error.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {
 
-/// The image files that a user means: files as given; of a folder, all images in it; of a pattern
-/// with * or ? in its last part, those that match. Sorted so that view2 comes before view10.
-/// Throws InputError for what does not exist or matches nothing.
+/// The image files that a user means: files as given; of a folder, all files in it whose endings
+/// are those of images; of a pattern with * or ? in its last part, those that match. Sorted so that
+/// view2 comes before view10. Throws InputError for what does not exist or matches nothing.
 std::vector<std::filesystem::path> ImageFiles(const std::vector<std::string>& arguments);
 
 /// A pair of pictures of the board.

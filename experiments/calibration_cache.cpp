@@ -6,10 +6,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/atomic_file.h"
-#include "core/calibration_io.h"
-#include "core/input_error.h"
-#include "experiments/versions.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
 
 namespace fenestra {
 namespace {

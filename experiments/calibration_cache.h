@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {

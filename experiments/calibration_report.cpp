@@ -7,9 +7,11 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "core/atomic_file.h"
-#include "core/calibration_io.h"
-#include "core/image_io.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
+#include "experiments/csv_writer.h"
+#include "experiments/number_format.h"
 #include "experiments/text_table.h"
 
 namespace fenestra {
@@ -23,11 +25,10 @@ std::string Heading(const std::string& text, ReportFormat format) {
   return format == ReportFormat::kMarkdown ? "\n## " + text + "\n\n" : "\n" + text + "\n";
 }
 
-// The value with as many decimals as show two digits of the deviation.
+// Distortions have deviations far below 0.001.
 std::string WithDeviation(double value, double deviation) {
   if (!(deviation > 0.0)) return fmt::format("{:g} (fixed)", value);
-  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(deviation))), 0, 9);
-  return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, deviation, decimals);
+  return WithStandardError(value, deviation, 9);
 }
 
 PairVector ValuesOf(const StereoCalibration& calibration) {
@@ -123,7 +124,7 @@ std::string BoardText(const CalibrationBoard& board) {
                      board.corner_rows(), 1e3 * board.square_m, kind);
 }
 
-// What stereo matching needs: rotations to parallel rows, and the projections after them.
+// The rotations to parallel rows and the projections after them, which stereo matching needs.
 std::array<RosRectification, 2> RectificationOf(const StereoCalibration& calibration) {
   const auto matrix = [](const CameraModel& camera) {
     cv::Mat K;
@@ -183,17 +184,17 @@ std::string CalibrationReport(const StereoCalibrationResult& result, const Calib
 }
 
 std::string CovarianceCsv(const StereoCalibrationResult& result) {
-  std::string csv = "parameter";
-  for (const std::string& name : PairParameterNames()) csv += "," + name;
-  csv += "\n";
+  CsvWriter csv;
+  csv.Add("parameter");
+  for (const std::string& name : PairParameterNames()) csv.Add(name);
+  csv.EndLine();
   for (int row = 0; row < kPairParameters; ++row) {
-    csv += PairParameterNames()[static_cast<size_t>(row)];
-    for (int column = 0; column < kPairParameters; ++column) {
-      csv += fmt::format(",{}", result.covariance(row, column));
-    }
-    csv += "\n";
+    csv.Add(PairParameterNames()[static_cast<size_t>(row)]);
+    for (int column = 0; column < kPairParameters; ++column)
+      csv.Add(result.covariance(row, column));
+    csv.EndLine();
   }
-  return csv;
+  return csv.text();
 }
 
 void WriteCalibration(const std::filesystem::path& folder, const StereoCalibrationResult& result,

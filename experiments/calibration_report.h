@@ -4,13 +4,13 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {
 
-/// What a calibration gave, for people: how well the views agree, each parameter with its standard
-/// deviation, the views that were left out and why. Markdown, or plain text for a terminal.
+/// The result of a calibration for people: how well the views agree, each parameter with its
+/// standard deviation, the views that were left out and why.
 enum class ReportFormat { kPlain, kMarkdown };
 std::string CalibrationReport(const StereoCalibrationResult& result, const CalibrationBoard& board,
                               ReportFormat format);

@@ -1,5 +1,6 @@
 #include "experiments/cell_bench.h"
 
+#include "experiments/calibrated_rig.h"
 #include "experiments/scoring.h"
 #include "experiments/trial_scene.h"
 
@@ -122,7 +123,7 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
                      .bound_C = {},
                      .stages = log.times()};
   if (const auto& information = simulated.information) {
-    record.bound_C = BoundOf(*information, KnowledgeOf(choice, *information));
+    record.bound_C = BoundOf(*information, PriorKnowledgeOf(choice, *information));
   }
   return {std::move(record), std::move(log)};
 }

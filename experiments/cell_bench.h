@@ -5,8 +5,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "experiments/calibration_cache.h"
 #include "experiments/detector_maker.h"
 #include "experiments/trial_bench.h"
@@ -16,8 +16,8 @@
 
 namespace fenestra {
 
-/// All that the trials of one cell share, made once: the scene with its ray tracing structures,
-/// the sensor, the detectors. What a study draws anew in every trial is made anew in every trial.
+/// Everything that the trials of one cell share, made once: the scene with its ray tracing
+/// structures, the sensor, the detectors. What a study draws in every trial is made in every trial.
 class CellBench final : public TrialBench {
  public:
   /// Keeps no references. Benches that share `detectors` share running programs, too.
@@ -39,12 +39,12 @@ class CellBench final : public TrialBench {
     Scene scene;
     RayCaster caster;
   };
-  /// A sensor and what detectors are told of it.
+  /// A sensor and the calibration that detectors are given.
   struct Instrument {
     std::variant<StereoRig, StructuredLightSensor> sensor;
     SensorCalibration calibration;
-    std::optional<PairMatrix> calibration_law;  ///< Of a stereo rig; see CalibratedRig.
-    std::optional<DepthTheory> depth_theory;    ///< Of a structured-light sensor.
+    std::optional<PairMatrix> calibration_law;  ///< For a stereo rig; see CalibratedRig.
+    std::optional<DepthTheory> depth_theory;    ///< For a structured-light sensor.
   };
 
   Instrument MakeInstrument(const TrialSettings& settings, const TrialStreams& streams) const;

@@ -15,13 +15,13 @@ class CsvWriter {
   CsvWriter& Add(std::string_view field);
   /// Exact(value): the same bits when read back; empty for nullopt.
   CsvWriter& Add(std::optional<double> value);
-  CsvWriter& Add(double value) { return Add(std::optional(value)); }  // Else Add(int) would match.
+  CsvWriter& Add(double value) { return Add(std::optional(value)); }  // Not Add(int).
   CsvWriter& Add(int value);
   CsvWriter& AddAll(const std::vector<std::string>& fields);
   void EndLine();
 
   const std::string& text() const { return text_; }
-  /// What was written since the last call.
+  /// Returns what was written since the last call.
   std::string TakeText() { return std::exchange(text_, {}); }
 
  private:

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "sim/structured_light_sensor.h"
 #include "sim/viewpoint.h"
 
@@ -13,7 +13,7 @@ namespace fenestra {
 class DepthBench {
  public:
   struct Plate {
-    double stand_off_m = 0.0;   ///< Of its middle from the wall.
+    double stand_off_m = 0.0;   ///< Distance of its middle from the wall.
     double half_width_m = 0.0;  ///< 0: no plate.
     double turn_rad = 0.0;      ///< About its upright middle.
   };
@@ -28,7 +28,7 @@ class DepthBench {
   /// RMS of a pixel's depth over frames around its mean, over pixels that always have a return [m].
   double TemporalNoise(const Viewpoint& viewpoint) const;
 
-  /// Of a sky of 300 lx on level ground a wall gets six tenths.
+  /// A wall gets six tenths of the 300 lx that the sky gives on level ground.
   static constexpr double kIndoors_lx = 180.0;
   static constexpr double kWhite = 0.8;
 

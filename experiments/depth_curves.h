@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "sim/structured_light_sensor.h"
 
 namespace fenestra {
@@ -24,7 +24,7 @@ struct DepthCurves {
     double residual_m;  ///< At 1.5 m.
     double valid;
   };
-  /// Of an upright border: a plate at 1.5 m, 0.8 m before a wall, turned about its middle.
+  /// An upright border: that of a plate at 1.5 m, 0.8 m before a wall, turned about its middle.
   struct Lateral {
     double angle_rad;
     double left_px;  ///< RMS around the line that fits best, in a 640-wide image.
@@ -37,7 +37,7 @@ struct DepthCurves {
     double microsoft_m;
   };
   struct Ambient {
-    double wall_lx;  ///< Of daylight on the wall.
+    double wall_lx;  ///< Illuminance of the wall by daylight.
     double z_m;
     double valid;
   };

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/pose.h"
 #include "experiments/depth_curves.h"
 #include "experiments/depth_laws.h"
 #include "experiments/plot.h"
@@ -8,11 +8,9 @@
 namespace fenestra {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 using Points = std::vector<cv::Point2d>;
 
-// Of six plots, two rows of three.
+// The place of a plot among six, in two rows of three.
 cv::Rect AreaOf(int column, int row) {
   return {column * 600, row * 450, 600, 450};
 }

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/geometry/pose.h"
 #include "experiments/depth_bench.h"
 #include "experiments/depth_curves.h"
 #include "experiments/depth_laws.h"
@@ -11,8 +11,6 @@
 
 namespace fenestra {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TextTable TableWith(const std::vector<std::string>& headings) {
   TextTable table;
@@ -26,7 +24,7 @@ std::string Number(double x) {
 std::string Millimetres(double x_m) {
   return Number(1e3 * x_m);
 }
-std::string Percent(double share) {
+std::string InPercent(double share) {
   return fmt::format("{:.1f}", 100.0 * share);
 }
 
@@ -41,8 +39,8 @@ std::string ByDistance(const DepthCurves& p, const DepthCurves& s) {
     const double published_m = KhoshelhamSigma(b.z_m);
     table.AddRow({Number(b.z_m), Millimetres(published_m), Millimetres(a.residual_m),
                   Millimetres(b.residual_m), fmt::format("{:.2f}", b.residual_m / published_m),
-                  Millimetres(a.temporal_m), Millimetres(b.temporal_m), Percent(a.valid),
-                  Percent(b.valid)});
+                  Millimetres(a.temporal_m), Millimetres(b.temporal_m), InPercent(a.valid),
+                  InPercent(b.valid)});
   }
   return table.ToMarkdown();
 }
@@ -54,8 +52,8 @@ std::string ByIncidence(const DepthCurves& p, const DepthCurves& s) {
     const auto& a = p.by_incidence[i];
     const auto& b = s.by_incidence[i];
     table.AddRow({Number(b.angle_rad / kDegree), Millimetres(NguyenSigma(1.5, b.angle_rad)),
-                  Millimetres(a.residual_m), Millimetres(b.residual_m), Percent(a.valid),
-                  Percent(b.valid)});
+                  Millimetres(a.residual_m), Millimetres(b.residual_m), InPercent(a.valid),
+                  InPercent(b.valid)});
   }
   return table.ToMarkdown();
 }
@@ -122,8 +120,8 @@ std::string ShareTable(const std::string& x, const std::string& unit,
   for (size_t i = 0; i < s.front().x_and_share.size(); ++i) {
     std::vector<std::string> row = {fmt::format("{:g}", s.front().x_and_share[i].x)};
     for (size_t k = 0; k < s.size(); ++k) {
-      row.push_back(Percent(p[k].x_and_share[i].y));
-      row.push_back(Percent(s[k].x_and_share[i].y));
+      row.push_back(InPercent(p[k].x_and_share[i].y));
+      row.push_back(InPercent(s[k].x_and_share[i].y));
     }
     table.AddRow(row);
   }
@@ -185,9 +183,9 @@ std::string ShadowTable(const StructuredLightOptions& options, const DepthCurves
 
 // The largest differences between the models.
 struct Agreement {
-  double share = 0.0;  ///< Of valid pixels.
+  double share = 0.0;  ///< Difference of the shares of valid pixels.
   std::string share_at = "nowhere";
-  double low_ratio = 1.0;  ///< Of noise, parametric : speckle, on white walls up to 60°.
+  double low_ratio = 1.0;  ///< Ratio of noise, parametric : speckle, on white walls up to 60°.
   double high_ratio = 1.0;
 };
 Agreement AgreementOf(const DepthCurves& p, const DepthCurves& s) {

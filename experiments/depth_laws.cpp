@@ -11,7 +11,8 @@
 namespace fenestra {
 namespace {
 
-constexpr double kLandauReflectance = 0.8;  // Of the wall on which the dots were measured.
+// The wall on which Landau measured the dots.
+constexpr double kLandauReflectance = 0.8;
 
 // The pattern's moments: means over displacements by fractions of a pixel.
 GatheredPattern::Moments MeanMoments(const InfraredOptions& infrared) {

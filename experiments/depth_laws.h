@@ -14,7 +14,7 @@ double KhoshelhamSigma(double z_m);
 /// 0.0012 + 0.0019 (z - 0.4)² up to 60°, and beyond 0.0001/√z θ²/(π/2 - θ)² more [m].
 double NguyenSigma(double z_m, double angle_rad);
 
-/// The same, lateral: 0.8 + 0.035 θ/(π/2 - θ) [px of a 640-wide image].
+/// Nguyen's lateral noise: 0.8 + 0.035 θ/(π/2 - θ) [px of a 640-wide image].
 double NguyenLateralSigma(double angle_rad);
 
 /// Distance between two depths that can occur: 2.85e-3 z² with OpenNI (Khoshelham & Elberink),
@@ -22,7 +22,7 @@ double NguyenLateralSigma(double angle_rad);
 double OpenNiStep(double z_m);
 double MicrosoftStep(double z_m);
 
-/// What the constants of a sensor say before anything is simulated. A window of the pattern, of
+/// Predictions from a sensor's constants, before anything is simulated. A block of the pattern, of
 /// mean m and variance v, with dots of s DN, ambient light of a DN and speckle contrast c has the
 /// correlation
 ///
@@ -31,7 +31,7 @@ double MicrosoftStep(double z_m);
 /// and is matched if ρ ≥ ρ₀, and if ambient light does not saturate the image.
 struct ReachPrediction {
   double lux = 0.0;            ///< On the wall, of daylight, at which half of the windows are lost.
-  bool by_saturation = false;  ///< Or else by the acceptance test.
+  bool by_saturation = false;  ///< Otherwise the acceptance test limits it.
 };
 
 /// For a wall of this 830 nm reflectance at distance z, facing the sensor.

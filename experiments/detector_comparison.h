@@ -19,7 +19,7 @@ struct DetectorComparison {
   FactorValues levels;
   std::string first;
   std::string second;
-  /// Who succeeded: `hit`, or `clear` in a scene without a target.
+  /// A success is `hit`, or `clear` in a scene without a target.
   PairedCounts successes;
   Interval rate_difference_interval;  ///< See PairedDifferenceInterval; 95 %.
   double mcnemar_p = 1.0;

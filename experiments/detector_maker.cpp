@@ -1,6 +1,6 @@
 #include "experiments/detector_maker.h"
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "experiments/study.h"
 #include "vision/external/external_detector.h"
 

@@ -5,7 +5,7 @@
 #include <boost/math/distributions/triangular.hpp>
 #include <cmath>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

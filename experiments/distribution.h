@@ -40,7 +40,7 @@ struct TruncatedNormalDistribution {
 /// With less probability than this between the limits the quantiles would lose digits.
 inline constexpr double kLeastNormalMass = 1e-6;
 
-/// What a factor is drawn from. All are bounded: a draw can never leave a factor's range.
+/// A distribution of a factor's values. All are bounded: a draw can never leave a factor's range.
 using Distribution = std::variant<UniformDistribution, LogUniformDistribution,
                                   TriangularDistribution, TruncatedNormalDistribution>;
 

@@ -34,9 +34,9 @@ struct ErrorBudget {
   std::string detector;
   FactorValues levels;
   std::vector<std::string> causes;
-  int trials = 0;  ///< That were made.
-  int hits = 0;    ///< Of these.
-  int rows = 0;    ///< Whole ones.
+  int trials = 0;
+  int hits = 0;  ///< Among the trials.
+  int rows = 0;  ///< Rows of the design whose trials have all been made.
   int used_rows = 0;
   std::vector<CoordinateBudget> coordinates;
 };
@@ -44,7 +44,7 @@ struct ErrorBudget {
 /// Collects the rows of a store in any order.
 class ErrorBudgets {
  public:
-  explicit ErrorBudgets(const Study& study);
+  ErrorBudgets(const Study& study, std::span<const Cell> cells);
 
   /// Rows of cells with other designs are passed over.
   void Add(const TrialRecord& record);
@@ -63,7 +63,7 @@ class ErrorBudgets {
   ErrorBudget BudgetOf(const Errors& collected) const;
 
   uint64_t seed_;
-  std::vector<std::vector<std::string>> causes_;  ///< Of each cell; empty with other designs.
+  std::vector<std::vector<std::string>> causes_;  ///< By cell; empty with other designs.
   std::map<std::pair<int, std::string>, Errors> errors_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/parameter_table.h"
+#include "core/io/parameter_table.h"
 #include "experiments/trial_settings.h"
 
 namespace fenestra {

@@ -18,20 +18,17 @@ class SettingReader {
 
   std::optional<Levels> ReadLevels(const YAML::Node& node) {
     if (node.size() == 0) return Fault<Levels>(node, "has an empty list of levels");
+    const size_t before = reader_.fault_count();
     Levels levels;
-    bool good = true;
     for (const YAML::Node& item : node) {
       const auto level = factor_.Read(reader_, item);
-      if (!level) {
-        good = false;
-      } else if (std::find(levels.begin(), levels.end(), *level) != levels.end()) {
+      if (!level) continue;
+      if (std::find(levels.begin(), levels.end(), *level) != levels.end()) {
         Fault<Levels>(item, fmt::format("has the level {} twice", ToString(*level)));
-        good = false;
-      } else {
-        levels.push_back(*level);
       }
+      levels.push_back(*level);
     }
-    return good ? std::optional(levels) : std::nullopt;
+    return reader_.IfSoundSince(before, levels);
   }
 
   std::optional<Levels> ReadRange(const YAML::Node& node) {
@@ -45,7 +42,7 @@ class SettingReader {
     for (int64_t i = 0; i <= *intervals; ++i) {
       const double share = static_cast<double>(i) / static_cast<double>(*intervals);
       double level = *from + share * (*to - *from);
-      if (std::abs(level) < negligible) level = 0.0;  // What -0.3 + 3 · 0.1 was meant to be.
+      if (std::abs(level) < negligible) level = 0.0;  // -0.3 + 3 · 0.1 was meant to be 0.
       levels.emplace_back(RoundTo12Digits(level));
     }
     for (const ParameterValue& level : levels) {
@@ -225,15 +222,6 @@ std::optional<std::variant<Levels, Distribution>> ReadFactorSetting(YamlReader& 
     return std::nullopt;
   }
   return setting.ReadDistribution(node, node.begin()->first.Scalar());
-}
-
-double RoundTo12Digits(double value) {
-  return std::stod(fmt::format("{:.11e}", value));
-}
-
-ParameterValue WrittenDefault(const ParameterInfo& parameter) {
-  const double* number = std::get_if<double>(&parameter.default_value);
-  return number != nullptr ? RoundTo12Digits(*number) : parameter.default_value;
 }
 
 }  // namespace fenestra

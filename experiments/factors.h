@@ -1,16 +1,17 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 #include "experiments/trial_settings.h"
 
 namespace fenestra {
 
-/// What a factor belongs to, which says where it has an effect.
+/// The group of a factor, which says where it has an effect.
 enum class FactorGroup {
   kViewpoint,  ///< Where the rig stands and looks.
   kScene,      ///< The window and the wall, in every kind of scene.
@@ -33,5 +34,12 @@ bool Concerns(FactorGroup group, SensorKind sensor);
 
 /// Values of factors by name, in an order that means something to their reader.
 using FactorValues = std::vector<std::pair<std::string, ParameterValue>>;
+
+/// All values in one line, as tables, CSV files and messages show them: "distance_m 2, yaw_deg 10".
+/// `is` stands between a name and its value; " = " gives the conditions of a check.
+std::string LevelsText(const FactorValues& levels, std::string_view is = " ");
+
+/// The value of one of them as a table shows it; empty if `levels` has none of this name.
+std::string LevelText(const FactorValues& levels, const std::string& name);
 
 }  // namespace fenestra

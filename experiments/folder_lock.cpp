@@ -6,7 +6,7 @@
 
 #include <cerrno>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 

@@ -5,7 +5,7 @@
 
 namespace fenestra {
 
-/// Of all files in the folder and below it [bytes].
+/// The size of all files in the folder and below it [bytes].
 uint64_t FolderSize(const std::filesystem::path& folder);
 
 }  // namespace fenestra

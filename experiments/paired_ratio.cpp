@@ -7,9 +7,8 @@
 #include <limits>
 #include <map>
 
-#include "core/check.h"
-#include "core/input_error.h"
-#include "experiments/text_table.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {
@@ -66,20 +65,6 @@ Ratio WithInterval(double value, std::vector<double> resampled) {
   return {value, {SampleQuantile(resampled, 0.05), SampleQuantile(resampled, 0.95)}};
 }
 
-std::string CellText(const Ratio& ratio) {
-  if (std::isnan(ratio.value)) return "—";
-  return fmt::format("{:.2f} [{:.2f}, {:.2f}]", ratio.value, ratio.interval90.lower,
-                     ratio.interval90.upper);
-}
-
-std::string TextOf(const FactorValues& levels) {
-  std::string text;
-  for (const auto& [name, value] : levels) {
-    text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", name, ToString(value));
-  }
-  return text;
-}
-
 }  // namespace
 
 PairedRatios RatiosOf(std::span<const std::vector<ErrorPair>> cells, const RandomStream& stream) {
@@ -134,7 +119,7 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
     const std::string level = ToString(at->second);
     rest.erase(at);
     const std::string key =
-        fmt::format("{}/{}/{}/{}", row.part, ToString(row.sensor), row.detector, TextOf(rest));
+        fmt::format("{}/{}/{}/{}", row.part, ToString(row.sensor), row.detector, LevelsText(rest));
     auto& group = groups[key];
     if (group.empty()) order.push_back(key);
     auto cell = std::find_if(group.begin(), group.end(),
@@ -179,37 +164,6 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
                      fmt::format("no two cells of this study differ in '{}' alone", factor));
   }
   return paired;
-}
-
-std::string PairedRatioTable(std::span<const PairedCells> cells, const std::string& factor,
-                             const RandomStream& stream) {
-  TextTable table;
-  for (const char* heading : {"part", "detector", "levels", "compared"}) {
-    table.AddColumn(heading, TextTable::Align::kLeft);
-  }
-  for (const char* heading : {"pairs", "RMSE, ratio", "P95, ratio"}) table.AddColumn(heading);
-  const auto add = [&](const PairedCells& of, const std::string& levels,
-                       std::span<const std::vector<ErrorPair>> pairs, uint64_t index) {
-    const PairedRatios ratios = RatiosOf(pairs, stream.Child("row", index));
-    table.AddRow({of.part, of.detector, levels, fmt::format("{} : {}", of.level, of.base_level),
-                  std::to_string(ratios.pairs), CellText(ratios.rmse), CellText(ratios.p95_error)});
-  };
-  // Rows of one part, detector and level, then what they have in common.
-  for (size_t begin = 0; begin < cells.size();) {
-    const PairedCells& first = cells[begin];
-    size_t end = begin;
-    std::vector<std::vector<ErrorPair>> pooled;
-    while (end < cells.size() && cells[end].part == first.part &&
-           cells[end].detector == first.detector && cells[end].level == first.level) {
-      add(cells[end], TextOf(cells[end].levels), {&cells[end].pairs, 1}, end);
-      pooled.push_back(cells[end++].pairs);
-    }
-    if (pooled.size() > 1) add(first, "all, geometric mean", pooled, cells.size() + begin);
-    begin = end;
-  }
-  return fmt::format(
-      "Ratios between levels of {}, trial by trial, with 90 % bootstrap intervals\n\n{}\n", factor,
-      table.ToMarkdown());
 }
 
 }  // namespace fenestra

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/statistics.h"
 #include "experiments/trial_record.h"
 
@@ -53,9 +53,5 @@ struct PairedCells {
 /// All pairs of cells that differ in this factor alone, each against that with the first level that
 /// occurs; trials in view under both levels. Throws InputError if the factor is not varied.
 std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std::string& factor);
-
-/// A table of all pairs of cells, and for each part, detector and level the pooled ratios.
-std::string PairedRatioTable(std::span<const PairedCells> cells, const std::string& factor,
-                             const RandomStream& stream);
 
 }  // namespace fenestra

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "experiments/detector_choice_reader.h"
 #include "vision/window_prior.h"
 
 namespace fenestra {
@@ -10,14 +9,14 @@ namespace fenestra {
 std::string PriorText(const DetectorChoice& detector) {
   const DetectorInfo* info = FindDetector(detector.name);
   const OptionValues defaults = info ? DefaultChoice(*info).options : OptionValues{};
-  std::string text;
+  FactorValues told;
   for (const auto& [name, value] : detector.options) {
     if (!IsPriorOption(name)) continue;
     const auto by_default = defaults.find(name);
     if (by_default != defaults.end() && by_default->second == value) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, ToString(value));
+    told.emplace_back(name, value);
   }
-  return text;
+  return LevelsText(told);
 }
 
 std::vector<std::pair<std::string, std::string>> PriorEntries(const Study& study) {

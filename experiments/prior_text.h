@@ -8,12 +8,12 @@
 
 namespace fenestra {
 
-/// What a detector was told of the window beforehand (vision/window_prior.h), as reports show it:
+/// A detector's prior knowledge of the window (vision/window_prior.h), as reports show it:
 /// "expected_height_m 1, expected_width_m 1"; empty if nothing.
 std::string PriorText(const DetectorChoice& detector);
 
-/// The same for all detectors of a study: "Prior of edge-stereo in street" and its text. One entry,
-/// "Prior" and "none", where no detector was told anything.
+/// PriorText of all detectors of a study: "Prior of edge-stereo in street" and its text. One entry,
+/// "Prior" and "none", where no detector has any.
 std::vector<std::pair<std::string, std::string>> PriorEntries(const Study& study);
 
 }  // namespace fenestra

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/stage_log.h"
+#include "core/detection/stage_log.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {

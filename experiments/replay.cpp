@@ -4,7 +4,7 @@
 
 #include <bit>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/result_files.h"
 #include "experiments/run_trials.h"
 #include "experiments/store.h"

@@ -14,7 +14,7 @@ namespace fenestra {
 struct ReplayedRow {
   TrialRecord recorded;
   TrialRecord repeated;
-  /// What differs apart from the stage times, for people; empty: not a bit.
+  /// The differences apart from the stage times, for people; empty if every bit is the same.
   std::vector<std::string> differences;
 };
 

@@ -26,13 +26,13 @@ std::string TrialsCsv(std::span<const TrialRecord> records);
 /// Shows rows to a visitor, all of them every time it is called.
 using RowPass = std::function<void(const std::function<void(const TrialRecord&)>&)>;
 
-/// The same text for rows that are not all in memory. Makes two passes: columns, then lines.
+/// Writes TrialsCsv's text for rows that are not all in memory, in two passes: columns, then lines.
 void WriteTrialsCsv(const RowPass& for_each_row, std::ostream& out);
 
 /// One line per cell and detector.
 std::string SummaryCsv(std::span<const CellSummary> summaries);
 
-/// What stands above and below the tables of a report.
+/// The text above and below the tables of a report.
 struct ReportTitle {
   std::string study;
   std::string description = "";

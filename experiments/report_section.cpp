@@ -84,19 +84,4 @@ std::vector<std::string> KeyCells(const ReportSection& section, const CellSummar
   return cells;
 }
 
-std::string LevelText(const FactorValues& levels, const std::string& name) {
-  for (const auto& [level, value] : levels) {
-    if (level == name) return ToString(value);
-  }
-  return "";
-}
-
-std::string LevelsText(const FactorValues& levels) {
-  std::string text;
-  for (const auto& [name, value] : levels) {
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, ToString(value));
-  }
-  return text;
-}
-
 }  // namespace fenestra

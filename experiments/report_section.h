@@ -41,10 +41,4 @@ std::string Heading(const ReportSection& section);
 void AddKeyColumns(const ReportSection& section, TextTable& table);
 std::vector<std::string> KeyCells(const ReportSection& section, const CellSummary& row);
 
-/// "distance_m 2, azimuth_deg 10".
-std::string LevelsText(const FactorValues& levels);
-
-/// The value of a level as a table shows it; empty if the cell has no such level.
-std::string LevelText(const FactorValues& levels, const std::string& name);
-
 }  // namespace fenestra

@@ -5,14 +5,14 @@
 #include <optional>
 #include <ostream>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "experiments/cell_tally.h"
 #include "experiments/prior_text.h"
 #include "experiments/report.h"
 #include "experiments/row_reports.h"
 #include "experiments/run_trials.h"
 #include "experiments/study_reader.h"
-#include "experiments/summariser.h"
 #include "experiments/trial_files.h"
 #include "vision/detector_registry.h"
 
@@ -31,7 +31,7 @@ std::string Get(const StoreMetadata& metadata, const std::string& key) {
 ReportTitle TitleOf(const ResultStore& store, const Study& study) {
   const StoreMetadata metadata = store.Metadata();
   ReportTitle title{.study = study.name,
-                    .description = study.description,
+                    .description = Get(metadata, "description"),
                     .provenance = {{"Fenestra", Get(metadata, "version")},
                                    {"Seed", std::to_string(study.seed)},
                                    {"Libraries", Get(metadata, "libraries")}}};
@@ -67,7 +67,7 @@ class CheckedSummariser {
 }  // namespace
 
 fs::path StoreFile(const fs::path& results) {
-  return fs::is_directory(results) ? results / "results.sqlite" : results;
+  return fs::is_directory(results) ? results / ResultStore::kFileName : results;
 }
 
 Study StudyOf(const ResultStore& store, const fs::path& file) {
@@ -86,15 +86,14 @@ void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const f
 }
 
 std::vector<CellSummary> Summarise(const ResultStore& store) {
-  CheckedSummariser summariser("results.sqlite");
+  CheckedSummariser summariser(ResultStore::kFileName);
   store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
   return summariser.Finish();
 }
 
-std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::path& folder) {
-  const fs::path file = folder / "results.sqlite";
-  const Study study = StudyOf(store, file);
-  const std::vector<Cell> cells = Cells(study);
+std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
+                                          std::span<const Cell> cells, const fs::path& folder) {
+  const fs::path file = folder / ResultStore::kFileName;
   CheckedSummariser summariser(file);
   store.ForEachRow([&](const TrialRecord& row) {
     RequireTrialOf(cells, row, file);
@@ -132,10 +131,9 @@ fs::path PictureFolder(const fs::path& folder, const Cell& cell) {
          fmt::format("cell_{:03}_{}_{}", cell.index, cell.part, ToString(cell.sensor));
 }
 
-void WriteResultPictures(const ResultStore& store, const fs::path& file, const fs::path& folder,
-                         int jobs, std::shared_ptr<DetectorMaker> detectors) {
-  const Study study = StudyOf(store, file);
-  const std::vector<Cell> cells = Cells(study);
+void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
+                         const fs::path& folder, int jobs,
+                         std::shared_ptr<DetectorMaker> detectors) {
   std::vector<TrialKey> first;
   for (const TrialKey key : store.FinishedTrials()) {
     if (key.trial == 0) first.push_back(key);

@@ -6,14 +6,15 @@
 #include <map>
 #include <sstream>
 
+#include "core/system/program.h"
+#include "experiments/library_versions.h"
 #include "experiments/study_writer.h"
-#include "experiments/versions.h"
 #include "vision/plugin_loader.h"
 
 namespace fenestra {
 namespace {
 
-constexpr size_t kMostLines = 3;  // Of a study; the first ones tell what was changed.
+constexpr size_t kMostLines = 3;  // The first differing lines of a study show what was changed.
 
 // The lines that rows depend on, each with the name of its part: "near: distance_m: [1.4, 2]".
 std::vector<std::string> LinesOf(const std::string& yaml) {

@@ -8,8 +8,8 @@
 
 namespace fenestra {
 
-/// All that the bits of a study's rows depend on. Rows of one store, and of the shards that are
-/// merged into one, have the same.
+/// Everything that the bits of a study's rows depend on. All rows of one store, and of the shards
+/// that are merged into one, share it.
 struct RunIdentity {
   std::string study;  ///< Resolved, as YAML; the seed is in it.
   std::string version;
@@ -19,15 +19,15 @@ struct RunIdentity {
   std::string plugins;  ///< Shared libraries with detectors: "libmine.so 5f3a…, …".
 };
 
-/// Of a study that this program runs on this machine.
+/// The identity of a study's rows when this program runs it on this machine.
 RunIdentity IdentityOf(const Study& study);
 
-/// To and from the metadata of a store. An entry that is not there is empty.
+/// Writes an identity into a store's metadata, and reads it; an entry that is missing is empty.
 void AddTo(StoreMetadata& metadata, const RunIdentity& identity);
 RunIdentity IdentityFrom(const StoreMetadata& metadata);
 
-/// What differs, one line each: "version: 0.1.0 there, 0.2.0 here". Of the study, the lines that
-/// differ. Empty if nothing does.
+/// The differences, one line each: "version: 0.1.0 there, 0.2.0 here"; for the study, the lines
+/// that differ. Empty if nothing differs.
 std::vector<std::string> Differences(const RunIdentity& there, const RunIdentity& here);
 
 }  // namespace fenestra

@@ -18,11 +18,11 @@
 
 namespace fenestra {
 
-/// What a run finds when it starts.
+/// The state of a result when a run starts.
 struct RunStart {
-  int64_t trials = 0;                  ///< Of the study, or of its shard.
-  int64_t stored = 0;                  ///< Of these, stored by earlier runs.
-  std::vector<DetectorTally> tallies;  ///< Of the stored ones.
+  int64_t trials = 0;                  ///< Trials of the study, or of its shard.
+  int64_t stored = 0;                  ///< Those of them that earlier runs have stored.
+  std::vector<DetectorTally> tallies;  ///< Hits in the stored ones.
 };
 
 /// A run of a study, or of a shard of it, into a results folder (see result_files.h).
@@ -54,7 +54,7 @@ struct StudyRun {
 };
 
 struct StudyResult {
-  int64_t trials = 0;  ///< Of the study, or of its shard.
+  int64_t trials = 0;  ///< Trials of the study, or of its shard.
   int64_t stored_before = 0;
   int64_t stored = 0;
   /// Empty if the run was stopped before its end.

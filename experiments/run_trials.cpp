@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/cell_bench.h"
 
 namespace fenestra {
@@ -63,12 +63,6 @@ std::vector<TrialKey> AllTrials(std::span<const Cell> cells) {
     for (int trial = 0; trial < cell.repetitions; ++trial) trials.push_back({cell.index, trial});
   }
   return trials;
-}
-
-std::vector<TrialRecord> FinishedTrial::Records() const {
-  std::vector<TrialRecord> records;
-  for (const Attempt& attempt : attempts) records.push_back(attempt.record);
-  return records;
 }
 
 void RunTrials(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <numeric>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/design/causes.h"
 #include "experiments/design/sobol_points.h"
 
 namespace fenestra {
 namespace {
 
-// What a factor's stream is asked for.
+// Purposes of a factor's random numbers.
 enum FactorUse : uint64_t { kPoint = 0, kWithinStratum = 1 };
 
 RandomStream RootOf(const Study& study, const Cell& cell) {
@@ -95,7 +95,7 @@ RandomStream TrialSampler::StreamFor(const std::string& source, int trial_index)
     if (std::find(sources.begin(), sources.end(), source) == sources.end()) continue;
     return place.UsesSecond(i) ? first.Child("second") : first;
   }
-  return first;  // Of no cause: without effect.
+  return first;  // A source without a cause has no effect.
 }
 
 RandomStream TrialSampler::FactorStream(size_t factor, int trial_index) const {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/design/gaussian_copula.h"
 #include "experiments/study.h"
 
@@ -12,16 +12,16 @@ namespace fenestra {
 
 /// All randomness of a trial besides its drawn factors. Detectors share it.
 struct TrialStreams {
-  RandomStream shot;         ///< The pictures' noise.
-  RandomStream rig;          ///< The rig as built.
-  RandomStream calibration;  ///< What is told of it.
+  RandomStream shot;         ///< Noise of the images.
+  RandomStream rig;          ///< Deviations of the rig as built from its design.
+  RandomStream calibration;  ///< Errors of the rig's calibration.
 };
 
 /// One point of a study, ready to be simulated.
 struct Trial {
   int index;  ///< In its cell, from 0.
   TrialSettings settings;
-  FactorValues drawn;  ///< What the distributions gave in this trial.
+  FactorValues drawn;  ///< The values that the factors' distributions gave in this trial.
   TrialStreams streams;
 };
 

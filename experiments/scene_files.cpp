@@ -6,14 +6,15 @@
 #include <cmath>
 #include <set>
 
-#include "core/atomic_file.h"
-#include "core/did_you_mean.h"
-#include "core/image_io.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/image_io.h"
+#include "core/io/input_error.h"
+#include "core/io/srgb.h"
 #include "experiments/truth_exr.h"
 #include "experiments/truth_json.h"
+#include "renderers/ray_caster.h"
 #include "scenes/tessellation.h"
-#include "sim/srgb.h"
 
 namespace fenestra {
 namespace {

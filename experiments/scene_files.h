@@ -10,7 +10,7 @@ namespace fenestra {
 
 struct SceneViewOptions {
   std::optional<std::string> camera = {};  ///< By name; otherwise all of the scene's cameras.
-  /// Of the view that a scene without cameras is given.
+  /// Size of the view that a scene without cameras is given.
   int width_px = 752;
   int height_px = 480;
   Lighting lighting = {};

@@ -5,12 +5,14 @@
 #include <fstream>
 #include <optional>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
+#include "experiments/cell_tally.h"
+#include "experiments/library_versions.h"
 #include "experiments/report.h"
 #include "experiments/scoring.h"
 #include "experiments/store.h"
-#include "experiments/versions.h"
 
 namespace fenestra {
 namespace {
@@ -126,7 +128,7 @@ MadeDetections ReadDetections(const std::string& label, const std::filesystem::p
 
 std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
   const auto trials = TryAll(run);
-  ResultStore store = ResultStore::Create(run.out / "results.sqlite", MetadataOf(run),
+  ResultStore store = ResultStore::Create(run.out / ResultStore::kFileName, MetadataOf(run),
                                           ResultStore::IfExists::kReplace);
   for (const auto& rows : trials) store.AddTrial(rows);
   const std::vector<TrialRecord> records = store.Rows();

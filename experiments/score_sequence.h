@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "core/detection_json.h"
+#include "core/detection/detection_json.h"
 #include "experiments/detector_maker.h"
 #include "experiments/sequence.h"
 #include "experiments/summary.h"
 
 namespace fenestra {
 
-/// What a detector that runs elsewhere said of every frame of a sequence, in order.
+/// The detections of a detector that runs elsewhere, one for each image of a sequence, in order.
 struct MadeDetections {
   std::string label;
   std::vector<TimedDetection> detections;

@@ -7,7 +7,7 @@
 #include <exception>
 #include <limits>
 
-#include "core/detector_failure.h"
+#include "core/detection/detector_failure.h"
 
 namespace fenestra {
 namespace {
@@ -18,7 +18,7 @@ std::string ToText(const Eigen::Vector3d& p_C) {
   return fmt::format("({}, {}, {}) m", p_C.x(), p_C.y(), p_C.z());
 }
 
-/// What is wrong with an estimate regardless of the truth; empty if nothing is.
+/// Why an estimate is nonsense regardless of the truth; empty if it is not.
 std::string Nonsense(const WindowEstimate& estimate) {
   const auto check = [](const char* what, const Eigen::Vector3d& p_C) -> std::string {
     if (!p_C.allFinite()) return fmt::format("{} is not finite: {}", what, ToText(p_C));

@@ -4,7 +4,7 @@
 #include <string>
 #include <variant>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "experiments/trial_record.h"
 #include "sim/ground_truth.h"
 
@@ -13,11 +13,11 @@ namespace fenestra {
 /// A detector that gave neither an estimate nor a Miss.
 struct Crash {
   std::string kind;    ///< A stable identifier in snake_case: "exception", "timeout", "nonsense".
-  std::string detail;  ///< For people: the exception's text, the offending numbers.
+  std::string detail;  ///< The exception's text or the offending numbers, for people.
 };
 
-/// What `detect` returns, or what became of it: a Crash of the kind that a DetectorFailure names,
-/// or of kind "exception" for anything else that is thrown.
+/// The detection that `detect` returns, or a Crash: of the kind that a DetectorFailure names, or of
+/// kind "exception" for anything else that it throws.
 std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect);
 
 /// A hit is at most this fraction of the window's side away from the truth. The side is the smaller

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/observation_files.h"
+#include "core/detection/observation_files.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/factors.h"
 #include "sim/ground_truth.h"
@@ -14,7 +14,7 @@ namespace fenestra {
 /// One observation of a recorded sequence and what was surveyed of it.
 struct SequenceFrame {
   int cell = 0;   ///< Frames with the same part and levels are one cell, in order of appearance.
-  int trial = 0;  ///< Of the cell, from 0.
+  int trial = 0;  ///< Index in the cell, from 0.
   std::string part;
   FactorValues levels;
   FactorValues drawn;

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
-#include "core/observation_files.h"
+#include "core/detection/observation_files.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
 #include "experiments/cell_bench.h"
 #include "experiments/surveyed_truth.h"
 #include "experiments/yaml_quoting.h"

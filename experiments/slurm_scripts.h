@@ -10,7 +10,7 @@ namespace fenestra {
 struct SlurmSubmission {
   std::filesystem::path program;                    ///< This program, as all nodes see it.
   std::filesystem::path study;                      ///< The study's file, as all nodes see it.
-  std::string name;                                 ///< Of the study.
+  std::string name;                                 ///< The study's name.
   std::vector<std::string> run_options;             ///< Further options of `fenestra run`.
   std::vector<std::filesystem::path> plugins = {};  ///< As all nodes see them.
   std::vector<std::string> sbatch_options;  ///< Further options of sbatch, such as --time=1:00:00.

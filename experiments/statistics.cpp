@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {
@@ -27,6 +27,10 @@ Interval ClopperPearson(int successes, int trials, double confidence) {
   constexpr auto kMethod = Binomial::clopper_pearson_exact_interval;
   return {.lower = Binomial::find_lower_bound_on_p(trials, successes, one_sided, kMethod),
           .upper = Binomial::find_upper_bound_on_p(trials, successes, one_sided, kMethod)};
+}
+
+Interval OneSidedLimits(int successes, int trials, double confidence) {
+  return ClopperPearson(successes, trials, std::max(1e-9, 1.0 - 2.0 * (1.0 - confidence)));
 }
 
 double SampleQuantile(std::span<const double> values, double p) {

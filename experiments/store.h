@@ -2,41 +2,18 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "experiments/trial_key.h"
+#include "experiments/store_metadata.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
 
-/// What a store says of itself: the study as written and as resolved, version, seed, libraries.
-/// Free keys; "schema_version" is written by the store.
-using StoreMetadata = std::map<std::string, std::string>;
-
-/// One call of the program that added trials to a store.
-struct RunEntry {
-  std::string shard = "1/1";
-  std::string started_utc = "";                         ///< "2026-01-31T12:00:00Z"
-  std::optional<std::string> ended_utc = std::nullopt;  ///< Absent: still running, or killed.
-  int jobs = 1;
-  std::string host = "";
-  std::string processor = "";
-  std::string command = "";
-};
-
-/// How often a detector has found the target so far.
-struct DetectorTally {
-  std::string detector;
-  int64_t in_view = 0;  ///< Rows whose target is in view (see CellSummary).
-  int64_t hits = 0;
-};
-
-/// The raw rows of one study, in one SQLite file. Tables (see store_schema.h for the columns):
+/// The raw rows of one study, in one SQLite file. Tables (see store_rows.h for the columns):
 ///
 ///     meta(key, value)     StoreMetadata
 ///     runs(...)            one row per RunEntry
@@ -44,7 +21,7 @@ struct DetectorTally {
 ///
 /// Everything else that a report shows is derived from these rows alone.
 ///
-/// What is in the file at any time: whole trials only. Trials are written in transactions with
+/// The file holds whole trials only, at any time. Trials are written in transactions with
 /// SQLite's rollback journal: a run that is killed keeps every trial whose AddTrials has returned,
 /// and what was being written is rolled back when the file is opened again. (Not a write-ahead log:
 /// that keeps rows in a second file and does not work on network file systems.) synchronous =
@@ -56,6 +33,9 @@ struct DetectorTally {
 /// cannot be written; the file is then as it was.
 class ResultStore {
  public:
+  /// Name of a store in a results folder.
+  static constexpr char kFileName[] = "results.sqlite";
+
   enum class IfExists { kRefuse, kReplace };
 
   /// Makes a fresh, empty store, which appears by rename: until then an older result stands, and a

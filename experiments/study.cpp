@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/check.h"
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {
@@ -157,6 +157,16 @@ std::vector<std::pair<std::string, Distribution>> DrawnFactors(const Study& stud
     }
   }
   return drawn;
+}
+
+DetectorChoice DefaultChoice(const DetectorInfo& detector) {
+  DetectorChoice choice{
+      .label = detector.name, .name = detector.name, .sensor = detector.sensor, .options = {}};
+  if (detector.isolate) choice.process = DetectorProcess{};
+  for (const ParameterInfo& option : detector.options) {
+    choice.options[option.name] = WrittenDefault(option);
+  }
+  return choice;
 }
 
 }  // namespace fenestra

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 #include "experiments/design/sampling_design.h"
 #include "experiments/distribution.h"
 #include "experiments/envelope/envelope_rule.h"
@@ -25,7 +25,7 @@ inline constexpr int64_t kMostTrials = 1'000'000;
 /// The values of a factor that are compared with each other; a single one is a fixed value.
 using Levels = std::vector<ParameterValue>;
 
-/// What a study does with one factor. Numbers have the unit of the factor's name.
+/// How a study sets one factor. Numbers have the unit of the factor's name.
 struct Factor {
   std::string name;
   std::variant<Levels, Distribution> setting;
@@ -54,6 +54,9 @@ struct DetectorChoice {
 
   bool operator==(const DetectorChoice&) const = default;
 };
+
+/// The detector with all its options at their defaults.
+DetectorChoice DefaultChoice(const DetectorInfo& detector);
 
 /// One grid of conditions.
 struct StudyPart {
@@ -90,7 +93,7 @@ struct Cell {
   size_t part_index;  ///< Into Study::parts.
   std::string part;
   SensorKind sensor;
-  /// Of the factors that concern the sensor and have several levels in any part of the study, so
+  /// Levels of the factors that concern the sensor and have several in any part of the study, so
   /// that the cells of all parts can be told apart; a factor that is drawn here is not among them.
   FactorValues levels;
   /// With all fixed values and levels; factors with distributions are at their defaults.

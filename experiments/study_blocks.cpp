@@ -4,9 +4,11 @@
 
 #include <algorithm>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "experiments/factor_reader.h"
 #include "experiments/factors.h"
+#include "experiments/name_reader.h"
+#include "experiments/rule_reader.h"
 
 namespace fenestra {
 namespace {
@@ -17,19 +19,17 @@ std::optional<std::vector<SensorKind>> ReadSensors(YamlReader& reader, const YAM
                                       YamlReader::Describe(node)));
     return std::nullopt;
   }
+  const size_t before = reader.fault_count();
   std::vector<SensorKind> sensors;
-  bool good = true;
   for (const YAML::Node& item : node) {
     const auto sensor = ReadSensor(reader, item);
-    good = good && sensor.has_value();
     if (!sensor) continue;
     if (std::find(sensors.begin(), sensors.end(), *sensor) != sensors.end()) {
       reader.AddFault(item, fmt::format("the sensor '{}' stands twice", ToString(*sensor)));
-      good = false;
     }
     sensors.push_back(*sensor);
   }
-  return good ? std::optional(sensors) : std::nullopt;
+  return reader.IfSoundSince(before, sensors);
 }
 
 std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node) {
@@ -54,18 +54,6 @@ std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node)
 
 }  // namespace
 
-std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node) {
-  static const std::vector<std::string> names{ToString(SensorKind::kStereo),
-                                              ToString(SensorKind::kRgbd)};
-  const auto name = reader.Text(node, "a sensor");
-  if (!name) return std::nullopt;
-  if (*name == names[0]) return SensorKind::kStereo;
-  if (*name == names[1]) return SensorKind::kRgbd;
-  reader.AddFault(node,
-                  fmt::format("unknown sensor '{}'. Known: {}.", *name, fmt::join(names, ", ")));
-  return std::nullopt;
-}
-
 const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
   const auto found =
       std::find_if(factors.begin(), factors.end(),
@@ -83,31 +71,27 @@ StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
                      std::span<const DetectorInfo> known_detectors) {
   StudyBlock block;
   block.node = node;
+  const size_t before = reader.fault_count();
   if (const YAML::Node repetitions = node["repetitions"]; repetitions.IsDefined()) {
     const auto count = reader.Integer(repetitions, "repetitions", 1, kMostTrials);
-    block.sound = block.sound && count.has_value();
     if (count) block.repetitions = static_cast<int>(*count);
   }
   if (const YAML::Node sensors = node["sensors"]; sensors.IsDefined()) {
     block.sensors = ReadSensors(reader, sensors);
-    block.sound = block.sound && block.sensors.has_value();
   }
   if (const YAML::Node detectors = node["detectors"]; detectors.IsDefined()) {
     block.detectors = ReadDetectors(reader, detectors, known_detectors);
-    block.sound = block.sound && block.detectors.has_value();
   }
   if (const YAML::Node design = node["design"]; design.IsDefined()) {
     block.design = ReadDesign(reader, design);
-    block.sound = block.sound && block.design.has_value();
   }
   if (const YAML::Node until = node["until"]; until.IsDefined()) {
     block.until = ReadStoppingRule(reader, until);
-    block.sound = block.sound && block.until.has_value();
   }
   if (const YAML::Node envelope = node["envelope"]; envelope.IsDefined()) {
     block.envelope = ReadEnvelopeRule(reader, envelope);
-    block.sound = block.sound && block.envelope.has_value();
   }
+  block.sound = reader.fault_count() == before;
   if (const YAML::Node factors = node["factors"]; factors.IsDefined()) {
     block.factors = ReadFactors(reader, factors);
     block.sound = block.sound && block.factors.size() == factors.size();

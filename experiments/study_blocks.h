@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/design/design_reader.h"
 #include "experiments/detector_choice_reader.h"
 #include "experiments/study.h"
@@ -18,7 +18,7 @@ struct GivenFactor {
   YAML::Node key;
 };
 
-/// What a study and each of its parts may say alike; absent where the file says nothing.
+/// The keys that a study and each of its parts have in common; absent where the file has none.
 struct StudyBlock {
   YAML::Node node;
   std::optional<std::vector<SensorKind>> sensors;
@@ -28,19 +28,16 @@ struct StudyBlock {
   std::optional<GivenDesign> design;
   std::optional<StoppingRule> until;
   std::optional<EnvelopeRule> envelope;
-  /// Whether the block was read without faults. What it lacks may else be only misspelt.
+  /// Whether the block was read without faults. Otherwise a missing key may merely be misspelt.
   bool sound = true;
 
   const GivenFactor* FindFactor(const std::string& name) const;
 };
 
-/// Reads "stereo" or "rgbd".
-std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node);
-
 /// The keys that ReadBlock reads.
 const std::vector<std::string>& BlockKeys();
 
-/// Reads those keys of a mapping; faults are noted in the reader.
+/// Reads the keys in BlockKeys of a mapping; faults are noted in the reader.
 StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
                      std::span<const DetectorInfo> known_detectors);
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/did_you_mean.h"
-#include "core/input_error.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 

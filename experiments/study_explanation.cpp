@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "experiments/design/causes.h"
 #include "experiments/number_format.h"
@@ -76,21 +75,6 @@ TrialCost Mean(const TrialCost& a, const TrialCost& b) {
           .trial_s = 0.5 * (a.trial_s + b.trial_s),
           .row_bytes = 0.5 * (a.row_bytes + b.row_bytes),
           .picture_bytes = 0.5 * (a.picture_bytes + b.picture_bytes)};
-}
-
-std::string Duration(double seconds) {
-  if (seconds < 60.0) return fmt::format("{} s", Significant(seconds));
-  if (seconds < 3600.0)
-    return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60.0),
-                       std::fmod(seconds, 60.0));
-  return fmt::format("{:.0f} h {:02.0f} min", std::floor(seconds / 3600.0),
-                     std::fmod(seconds, 3600.0) / 60.0);
-}
-
-std::string Bytes(double bytes) {
-  if (bytes < 1e6) return fmt::format("{} kB", Significant(bytes / 1e3));
-  if (bytes < 1e9) return fmt::format("{} MB", Significant(bytes / 1e6));
-  return fmt::format("{} GB", Significant(bytes / 1e9));
 }
 
 double SecondsOf(const CellClass& cells, int jobs) {

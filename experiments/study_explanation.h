@@ -11,12 +11,12 @@
 
 namespace fenestra {
 
-/// What one trial of a cell takes, measured by running some.
+/// The cost of one trial of a cell, measured by running some.
 struct TrialCost {
-  double cell_s = 0.0;       ///< To make ready what the cell's trials share.
-  double trial_s = 0.0;      ///< On one thread, all detectors.
-  double row_bytes = 0.0;    ///< Of a trial's rows in results.sqlite and trials.csv.
-  double picture_bytes = 0;  ///< Of the pictures of a cell's first trial.
+  double cell_s = 0.0;       ///< Time to make ready what the cell's trials share.
+  double trial_s = 0.0;      ///< Time on one thread with all detectors.
+  double row_bytes = 0.0;    ///< Size of a trial's rows in results.sqlite and trials.csv.
+  double picture_bytes = 0;  ///< Size of the pictures of a cell's first trial.
 };
 
 /// Runs `trials` ≥ 1 trials of the cell, and stores the rows and pictures in a folder for temporary
@@ -38,12 +38,12 @@ struct CellClass {
   std::optional<TrialCost> cost;
 };
 
-/// What a study will run. With probes > 0, that many trials of the first and the last cell of each
-/// class are run to measure its cost; their mean stands for the class.
+/// The cells that a study will run. With probes > 0, that many trials of the first and the last
+/// cell of each class are run to measure its cost; their mean stands for the class.
 std::vector<CellClass> ExplainStudy(const Study& study, int probes,
                                     const std::shared_ptr<DetectorMaker>& detectors);
 
-/// The above for people, with totals; times for this number of jobs.
+/// The cells' classes as text with totals; times are for this number of jobs.
 std::string ExplanationText(const Study& study, const std::vector<CellClass>& classes, int jobs);
 
 }  // namespace fenestra

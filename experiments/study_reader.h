@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <span>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/study.h"
 #include "vision/detector_registry.h"
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/design/design_reader.h"
 #include "experiments/detector_choice_reader.h"
-#include "experiments/detector_process_reader.h"
 #include "experiments/factor_reader.h"
+#include "experiments/rule_reader.h"
 #include "experiments/study_blocks.h"
 #include "experiments/study_reader.h"
 

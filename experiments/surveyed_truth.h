@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "sim/ground_truth.h"
 
 namespace fenestra {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "experiments/sampling.h"
 #include "experiments/study.h"
 #include "experiments/theory/trial_information.h"
@@ -17,17 +17,17 @@ namespace fenestra {
 /// One trial up to the point where detectors take over.
 struct SimulatedTrial {
   Trial trial;
-  SensorCalibration calibration;  ///< What detectors are told.
+  SensorCalibration calibration;  ///< The calibration that detectors are given.
   Observation observation;
   GroundTruth truth;
-  /// What the observation tells of the target; nullopt where theory has no word for it.
+  /// The information of the observation on the target; nullopt where theory gives none.
   std::optional<TrialInformation> information{};
 };
 
-/// The sensor of a trial as it truly is, of which a calibration tells.
+/// The sensor of a trial as it truly is; a calibration is an estimate of it.
 struct TrueSensor {
   SensorCalibration cameras;
-  Eigen::Vector3d velocity_W;  ///< Of the scored camera's origin, in the world [m/s].
+  Eigen::Vector3d velocity_W;  ///< Velocity of the scored camera's origin in the world [m/s].
 };
 
 /// One detector's attempt at a simulated trial.
@@ -61,6 +61,20 @@ class TrialBench {
   /// The depth image with what detectors never see of it: why pixels have no return, and the
   /// infra-red image if there is one. nullopt for stereo.
   virtual std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const = 0;
+};
+
+/// A trial that every detector of its cell has tried.
+struct FinishedTrial {
+  const TrialBench& bench;
+  const SimulatedTrial& simulated;
+  const std::vector<Attempt>& attempts;
+
+  TrialKey key() const { return {bench.cell().index, simulated.trial.index}; }
+  std::vector<TrialRecord> Records() const {
+    std::vector<TrialRecord> records;
+    for (const Attempt& attempt : attempts) records.push_back(attempt.record);
+    return records;
+  }
 };
 
 }  // namespace fenestra

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/private_folder.h"
+#include "core/io/private_folder.h"
 #include "experiments/cell_bench.h"
 #include "experiments/folder_size.h"
 #include "experiments/report.h"

@@ -3,10 +3,10 @@
 #include <opencv2/core.hpp>
 #include <span>
 
-#include "core/calibration.h"
-#include "core/detection.h"
-#include "core/observation.h"
-#include "core/stage_log.h"
+#include "core/detection/detection.h"
+#include "core/detection/observation.h"
+#include "core/detection/stage_log.h"
+#include "core/geometry/calibration.h"
 #include "sim/ground_truth.h"
 
 namespace fenestra {

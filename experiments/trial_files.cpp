@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "core/atomic_file.h"
-#include "core/calibration_io.h"
-#include "core/image_io.h"
-#include "core/observation_files.h"
+#include "core/detection/observation_files.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
 #include "experiments/frame_visibility.h"
 #include "experiments/pcd.h"
 #include "experiments/trial_drawing.h"

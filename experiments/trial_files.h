@@ -4,12 +4,11 @@
 #include <span>
 #include <string>
 
-#include "experiments/run_trials.h"
 #include "experiments/trial_bench.h"
 
 namespace fenestra {
 
-/// Writes what a person looks at: the observation's images and every stage picture of a detector,
+/// Writes pictures for people: the observation's images and every stage picture of a detector,
 /// truth (green, where it is known) and estimate (magenta) drawn over each, and its clouds (PCD).
 ///
 ///     left.png, right.png                          (stereo)
@@ -19,7 +18,7 @@ void WritePictures(const std::filesystem::path& folder, const Observation& obser
                    const SensorCalibration& calibration, const GroundTruth* truth,
                    const WindowEstimate* estimate, const StageLog& log);
 
-/// The same for every detector of a trial, each in a folder of its name.
+/// Writes a trial's pictures under every detector, each in a folder of its name.
 void WritePictures(const std::filesystem::path& folder, const FinishedTrial& trial);
 
 /// Writes one observation as a detector gets it, the files that `fenestra detect` reads:
@@ -39,7 +38,7 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
                      const SimulatedTrial& simulated);
 
-/// The first and the second half of that, each into a folder of its own.
+/// Write the first and the second half of these files, each into a folder of its own.
 void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedTrial& simulated);
 void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& bench,
                      const SimulatedTrial& simulated);

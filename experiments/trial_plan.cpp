@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/statistics/looks.h"
 
 namespace fenestra {
 namespace {
 
 constexpr double kConfidence = 0.95;
-// Of an envelope's cells: how soon one may be given up.
+// How soon one of an envelope's cells may be given up.
 constexpr int kFirstEnvelopeLook = 10;
 
 // The widest interval of the figure's; infinite where one is missing.

@@ -9,7 +9,7 @@
 #include "experiments/envelope/envelope_search.h"
 #include "experiments/figure_tally.h"
 #include "experiments/study.h"
-#include "experiments/trial_key.h"
+#include "experiments/trial_record.h"
 
 namespace fenestra {
 
@@ -28,7 +28,7 @@ class TrialPlan {
   /// Rows must come by cell and trial, as ResultStore::ForEachRow shows them.
   void Add(const TrialRecord& row);
 
-  /// Trials that are wanted now and not there, by cell and trial; empty when the study is done.
+  /// Trials that are required but not yet stored, by cell and trial; empty when the study is done.
   std::vector<TrialKey> Next() const;
 
   /// The envelopes so far, one for each curve and detector.
@@ -40,9 +40,9 @@ class TrialPlan {
  private:
   struct CellState {
     std::vector<int> looks;
-    size_t look = 0;     ///< The next one.
+    size_t look = 0;     ///< Index of the next look.
     bool ended = false;  ///< Wants no more trials.
-    int complete = 0;    ///< So many trials from the first one on are there.
+    int complete = 0;    ///< Number of trials that are stored without a gap, from the first one on.
     std::vector<bool> stored;
     std::map<std::string, FigureTally> tallies;      ///< Where a rule stops the cell.
     std::map<std::string, RequirementCount> counts;  ///< Where an envelope is looked for.

@@ -2,19 +2,28 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/detection.h"
-#include "core/observation.h"
-#include "core/stage_log.h"
+#include "core/detection/detection.h"
+#include "core/detection/observation.h"
+#include "core/detection/stage_log.h"
 #include "experiments/factors.h"
 
 namespace fenestra {
 
-/// What became of one trial under one detector. The definitions are the same for all studies;
+/// One trial of a study.
+struct TrialKey {
+  int cell = 0;   ///< Index into Cells(study).
+  int trial = 0;  ///< Index in the cell, from 0.
+
+  auto operator<=>(const TrialKey&) const = default;
+};
+
+/// The outcome of one trial under one detector. The definitions are the same for all studies;
 /// ScoreDetection makes them, OutcomeDefinition prints them.
 enum class Outcome {
   kHit,
@@ -44,7 +53,7 @@ struct Score {
   Outcome outcome = Outcome::kMissed;
   /// Why there is no estimate: the reason of the Miss or the kind of the Crash; otherwise empty.
   std::string reason;
-  std::string detail;  ///< For people.
+  std::string detail;  ///< Explains the reason to a person.
   /// Present whenever the detector gave a sane estimate, whatever the outcome.
   std::optional<WindowEstimate> estimate;
   /// Present whenever the scene has a target, in view or not.
@@ -52,7 +61,8 @@ struct Score {
 
   /// Estimate minus truth: x to the right, y down, z in depth. nullopt unless both are there.
   std::optional<Eigen::Vector3d> CentroidError_C() const;
-  /// Its length; infinite where there is none, as the quantiles of all attempts need it.
+  /// The length of CentroidError_C; infinite without an error, as the quantiles of all attempts
+  /// need it.
   double CentroidErrorOrInfinity_m() const;
 
   bool HasTarget() const { return truth_p_CO.has_value(); }
@@ -67,11 +77,11 @@ struct TrialRecord {
   std::string part;  ///< Name of the study's part.
   SensorKind sensor = SensorKind::kStereo;
   std::string detector;  ///< Label of the detector.
-  FactorValues levels;   ///< The same in every trial of the cell.
+  FactorValues levels;   ///< Shared by all trials of the cell.
   FactorValues drawn;    ///< Drawn anew in every trial.
   Score score;
   /// Cramér and Rao's bound on the covariance of an unbiased estimate of p_CO that knows what this
-  /// detector knows [m²]; see docs/theory.md. Absent where there is none.
+  /// detector knows [m²]; see docs/theory.md. Absent where theory gives none.
   std::optional<Eigen::Matrix3d> bound_C{};
   std::vector<StageTime> stages;
 

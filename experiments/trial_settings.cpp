@@ -1,7 +1,8 @@
 #include "experiments/trial_settings.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "renderers/ray_caster.h"
+#include "scenes/facade_check.h"
 
 namespace fenestra {
 

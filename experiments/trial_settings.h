@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/observation.h"
+#include "core/detection/observation.h"
 #include "experiments/calibration_choice.h"
 #include "scenes/facade.h"
 #include "scenes/lighting.h"
@@ -21,8 +21,8 @@ inline constexpr const char* kFacadeScene = "facade";
 /// give equal observations.
 struct TrialSettings {
   std::string scene = kPaperTargetScene;  ///< kPaperTargetScene or kFacadeScene.
-  /// The window and the wall around it, for both kinds of scene: all that the painted target has,
-  /// a facade has too.
+  /// The window and the wall around it, for both kinds of scene: a facade has everything that the
+  /// painted target has.
   FacadeOptions facade;
   Lighting lighting;
   Viewpoint viewpoint;
@@ -34,7 +34,7 @@ struct TrialSettings {
   StructuredLightOptions rgbd;
 };
 
-/// What the painted target takes from the settings; frame_width_m is the width of its border.
+/// The options of the painted target; frame_width_m is the width of its border.
 PaperTargetOptions PaperTargetOf(const TrialSettings& settings);
 
 /// The scene of a trial. Throws InputError for sizes that do not fit into each other.

@@ -1,6 +1,6 @@
 #include "experiments/trial_writer.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 

@@ -1,6 +1,6 @@
 #include "experiments/truth_json.h"
 
-#include "core/geometry_json.h"
+#include "core/geometry/geometry_json.h"
 
 namespace fenestra {
 namespace {

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 #include "sim/ground_truth.h"
 
 namespace fenestra {
@@ -21,7 +21,7 @@ struct NamedCamera {
   Pose X_WC;
 };
 
-/// The same of a trial, whose true cameras are known:
+/// TruthJson of a trial whose true cameras are known, with further members:
 ///
 ///     camera                      the scored one, in whose frame the windows are: "left", "depth"
 ///     world_from_<camera>         of every camera

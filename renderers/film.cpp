@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 namespace {

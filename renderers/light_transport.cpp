@@ -5,9 +5,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/check.h"
-#include "core/wide.h"
+#include "core/system/check.h"
+#include "core/system/wide.h"
 #include "renderers/diffuse_light.h"
+#include "renderers/pane_kernels.h"
 
 namespace fenestra {
 namespace {

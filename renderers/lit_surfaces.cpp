@@ -4,10 +4,12 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/system/wide.h"
+
 namespace fenestra {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kInversePi = 1.0f / std::numbers::pi_v<float>;
 
 // What the sun gives at the corners of a side: the cosines to it, 0 if it stands behind the side.
 glm::vec3 SunCosines(const TriangleSoup& soup, size_t triangle, bool front,
@@ -51,7 +53,7 @@ std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& 
   for (size_t t = 0; t < soup.size(); ++t) {
     const Material& material = scene.materials[scene.meshes[soup.mesh_of[t]].material];
     const Spectrum per_E =
-        arriving ? weights : weights * ReflectanceSpectrum(material) * (1.0f / kPi);
+        arriving ? weights : weights * ReflectanceSpectrum(material) * kInversePi;
     const float emission = arriving ? 0.0f : glm::dot(weights, EmissionSpectrum(material));
     const float sun_per_cosine = glm::dot(per_E, E_sun);
     for (const bool front : {true, false}) {
@@ -69,9 +71,53 @@ std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& 
     }
   }
   if (!arriving) {
-    sides.back().ambient = glm::dot(weights, GroundExitance(lighting)) * (1.0f / kPi);
+    sides.back().ambient = glm::dot(weights, GroundExitance(lighting)) * kInversePi;
   }
   return sides;
+}
+
+FENESTRA_WIDE SideGroups GroupsOf(const Lanes<uint32_t>& side_hit) {
+  SideGroups groups;
+  uint32_t differs = 0;
+  for (int i = 0; i < kLanes; ++i) differs |= side_hit[i] ^ side_hit[0];
+  groups.sides[groups.count++] = side_hit[0];
+  if (differs == 0) return groups;
+  for (int i = 1; i < kLanes; ++i) {
+    bool is_new = true;
+    for (int k = 0; k < groups.count; ++k) is_new = is_new && groups.sides[k] != side_hit[i];
+    if (is_new) groups.sides[groups.count++] = side_hit[i];
+  }
+  return groups;
+}
+
+FENESTRA_WIDE Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
+                                          const Lanes<uint32_t>& side_hit,
+                                          const RayPacket& packet) {
+  Lanes<float> light;
+  for (int k = 0; k < groups.count; ++k) {
+    const uint32_t hit = groups.sides[k];
+    const SideRadiance side = sides[hit];
+    for (int i = 0; i < kLanes; ++i) {
+      const float own =
+          side.ambient + side.ambient_u * packet.hit.u[i] + side.ambient_v * packet.hit.v[i];
+      light[i] = side_hit[i] == hit ? own : light[i];
+    }
+  }
+  return light;
+}
+
+FENESTRA_WIDE Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+                                      const Lanes<uint32_t>& side_hit, const RayPacket& packet) {
+  Lanes<float> light;
+  for (int k = 0; k < groups.count; ++k) {
+    const uint32_t hit = groups.sides[k];
+    const SideRadiance side = sides[hit];
+    for (int i = 0; i < kLanes; ++i) {
+      const float sun = side.sun + side.sun_u * packet.hit.u[i] + side.sun_v * packet.hit.v[i];
+      light[i] = side_hit[i] == hit ? (sun > 0.0f ? sun : 0.0f) : light[i];
+    }
+  }
+  return light;
 }
 
 }  // namespace fenestra

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 
 namespace fenestra {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 #include "scenes/scene.h"
 
 namespace fenestra {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "scenes/facade_options.h"
 #include "scenes/solid_lattice.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "scenes/facade_plan.h"
 #include "scenes/scene.h"
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 #include "scenes/lighting.h"
 #include "scenes/scene.h"
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <sstream>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf.h"
 #include "scenes/gltf/buffer_builder.h"
 #include "scenes/gltf/material_writer.h"

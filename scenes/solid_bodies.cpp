@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "scenes/facade_options.h"
 
 namespace fenestra {

@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <string>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "scenes/facade_options.h"
 #include "scenes/scene.h"
 

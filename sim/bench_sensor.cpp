@@ -5,8 +5,9 @@
 
 #include <vector>
 
-#include "core/freed_memory.h"
+#include "core/system/freed_memory.h"
 #include "renderers/lane_kernels.h"
+#include "renderers/pane_kernels.h"
 #include "renderers/traced_scene.h"
 #include "scenes/facade.h"
 #include "sim/image_sensor.h"

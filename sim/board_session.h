@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 #include "sim/stereo_rig.h"
 
 namespace fenestra {

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/camera_model.h"
-#include "core/random_stream.h"
+#include "core/geometry/camera_model.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/image_sensor.h"
 #include "sim/lens.h"

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/observation.h"
+#include "core/detection/observation.h"
 
 namespace fenestra {
 

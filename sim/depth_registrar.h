@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/depth_carrier.h"
+#include "core/detection/depth_reprojection.h"
 #include "renderers/ray_caster.h"
 #include "sim/depth_frame.h"
 

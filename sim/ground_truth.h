@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 #include "scenes/scene.h"
 
 namespace fenestra {

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <vector>
 
-#include "core/check.h"
-#include "core/wide.h"
+#include "core/system/check.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "sim/chance_match.h"
 #include "sim/missing_return.h"
 
@@ -69,9 +69,9 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
                                  const SpeckleMatchingOptions& matching, const CameraModel& depth,
                                  double baseline_m, const DisparityRange& range,
                                  const RollingShutter& shutter)
-    : infrared_((Validate(infrared), infrared)),
-      noise_((Validate(noise), noise)),
-      matching_((Validate(matching), matching)),
+    : infrared_(Validated(infrared)),
+      noise_(Validated(noise)),
+      matching_(Validated(matching)),
       range_(range),
       p_CP_(baseline_m, 0.0, 0.0),
       rays_(depth, shutter),

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/camera_model.h"
-#include "core/random_stream.h"
+#include "core/geometry/camera_model.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/depth_frame.h"
 #include "sim/disparity_range.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

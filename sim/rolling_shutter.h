@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "sim/rig_motion.h"
 
 namespace fenestra {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "sim/depth_frame.h"
 #include "sim/disparity_range.h"
 #include "sim/infrared_image.h"

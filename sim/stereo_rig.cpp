@@ -7,7 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/demands.h"
+#include "core/io/faults.h"
+#include "core/random/random_pose.h"
 
 namespace fenestra {
 namespace {
@@ -40,10 +41,6 @@ Pose DesignedRight(double baseline_m) {
   return Pose::Translation({0.5 * baseline_m, 0.0, 0.0});
 }
 
-Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
-  return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
-}
-
 CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& camera) {
   if (options.as_designed) return DesignedCamera(options);
   const RigTolerances& tolerances = options.tolerances;
@@ -67,8 +64,7 @@ CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& cam
 Pose Mounting(const StereoRigOptions& options, const RandomStream& camera) {
   if (options.as_designed) return Pose();
   const RigTolerances& tolerances = options.tolerances;
-  return Pose(RotationFromVector(NormalVector(camera.Child("rotation"), tolerances.rotation_rad)),
-              NormalVector(camera.Child("translation"), tolerances.translation_m));
+  return RandomPose(camera, tolerances.rotation_rad, tolerances.translation_m);
 }
 
 // Where the left image's surface points are in the right one, as differences of their pixels.
@@ -105,26 +101,28 @@ double LargestRadius(const RayGrid& rays) {
 }  // namespace
 
 void Validate(const StereoRigOptions& o) {
-  Demands demand("stereo rig");
-  demand(o.pixel_pitch_m > 0.0, fmt::format("pixel pitch {} m is not positive", o.pixel_pitch_m));
-  demand(o.focal_length_m > 0.0,
-         fmt::format("focal length {} m is not positive", o.focal_length_m));
-  demand(o.baseline_m > 0.0, fmt::format("baseline {} m is not positive", o.baseline_m));
-  demand(o.lens.f_number > 0.0, fmt::format("f-number {} is not positive", o.lens.f_number));
-  demand(o.exposure.shortest_s <= o.exposure.longest_s,
-         fmt::format("shortest exposure {} s is longer than the longest, {} s",
-                     o.exposure.shortest_s, o.exposure.longest_s));
-  demand(o.lens.blur_sigma_px >= 0.0 && o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
-         fmt::format("blur {} px in the corners is less than {} px in the centre",
-                     o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
+  Faults faults("stereo rig");
+  faults.Require(o.pixel_pitch_m > 0.0,
+                 fmt::format("pixel pitch {} m is not positive", o.pixel_pitch_m));
+  faults.Require(o.focal_length_m > 0.0,
+                 fmt::format("focal length {} m is not positive", o.focal_length_m));
+  faults.Require(o.baseline_m > 0.0, fmt::format("baseline {} m is not positive", o.baseline_m));
+  faults.Require(o.lens.f_number > 0.0,
+                 fmt::format("f-number {} is not positive", o.lens.f_number));
+  faults.Require(o.exposure.shortest_s <= o.exposure.longest_s,
+                 fmt::format("shortest exposure {} s is longer than the longest, {} s",
+                             o.exposure.shortest_s, o.exposure.longest_s));
+  faults.Require(o.lens.blur_sigma_px >= 0.0 && o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
+                 fmt::format("blur {} px in the corners is less than {} px in the centre",
+                             o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
   const RigTolerances& t = o.tolerances;
-  demand(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
-             t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
-         "tolerances must not be negative");
-  if (demand.met() && !DistortionIsInvertible(DesignedCamera(o))) {
-    demand(false, "the distortion folds the image over before its corners");
+  faults.Require(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
+                     t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
+                 "tolerances must not be negative");
+  if (faults.count() == 0 && !DistortionIsInvertible(DesignedCamera(o))) {
+    faults.Add("the distortion folds the image over before its corners");
   }
-  demand.ThrowUnlessMet();
+  faults.ThrowIfAny();
 }
 
 StereoCalibration DesignOf(const StereoRigOptions& options) {
@@ -146,7 +144,7 @@ void StereoRig::Camera::SetSensor(const ImageSensorOptions& options) {
 }
 
 StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       cameras_{.left = BuiltCamera(options, rig.Child("left")),
                .right = BuiltCamera(options, rig.Child("right")),
                .X_RL = {}},

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "core/calibration.h"
-#include "core/observation.h"
-#include "core/random_stream.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/ground_truth.h"
 #include "sim/image_sensor.h"

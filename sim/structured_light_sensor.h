@@ -4,9 +4,9 @@
 #include <optional>
 #include <variant>
 
-#include "core/calibration.h"
-#include "core/observation.h"
-#include "core/random_stream.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/color_camera.h"
 #include "sim/depth_frame.h"

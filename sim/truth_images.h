@@ -2,9 +2,9 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
-#include "renderers/ray_caster.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
+#include "renderers/render_types.h"
 
 namespace fenestra {
 

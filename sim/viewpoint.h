@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/wide.h"
+#include "core/system/wide.h"
 
 namespace fenestra {
 namespace {

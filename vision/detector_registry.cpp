@@ -1,7 +1,7 @@
 #include "vision/detector_registry.h"
 
-#include "core/check.h"
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 #include "vision/rgbd/paper_rgbd.h"
 #include "vision/rgbd/plane_rgbd.h"
 #include "vision/stereo/edge_stereo.h"

@@ -7,20 +7,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/check.h"
+#include "core/geometry/pose.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {
 
 using Table = ParameterTable<WindowPrior>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSigmas = 5.0;
-
-#define FENESTRA_FIELD(field)    \
-  [](WindowPrior & p) -> auto& { \
-    return p.field;              \
-  }
 
 void AddGeometry(Table& table) {
   table
@@ -60,8 +55,6 @@ void AddGrey(Table& table) {
       .Number("expected_grey_tolerance", FENESTRA_FIELD(expected_grey_tolerance), {1e-3, 1.0},
               "Largest departure from expected_grey_ratio.");
 }
-
-#undef FENESTRA_FIELD
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "core/detection.h"
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/detection.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 
 namespace fenestra {
 
@@ -61,8 +61,7 @@ struct WindowPrior {
 /// Parameters of the prior. Their names begin with "expected_" and are the same for all detectors;
 /// colours are for RGB-D sensors, grey values for stereo ones. A detector's table adopts them by
 ///
-///     table.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo),
-///                              [](Options& o) -> WindowPrior& { return o.prior; });
+///     table.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
 ParameterTable<WindowPrior> PriorParameters(SensorKind sensor);
 
 /// Tells whether an option of this name belongs to the prior.

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/bounds/bound.h"
 
 namespace fenestra {

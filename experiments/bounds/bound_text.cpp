@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 #include "experiments/factors.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 
 namespace fenestra {
 
-/// What is wrong with the text of a bound, as a sentence that names the word and what is allowed.
+/// A fault in the text of a bound, as a sentence that names the word and what is allowed.
 class BoundTextError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/bounds/estimation.h"
 #include "experiments/bounds/regression.h"
 #include "experiments/bounds/row_selection.h"
@@ -122,13 +122,9 @@ void AddRegressions(const std::map<std::string, std::vector<SelectedRow>>& by_de
   }
 }
 
-std::string LevelsText(const TrialRecord& row) {
-  std::vector<std::string> levels;
-  for (const auto& [name, value] : row.levels) {
-    levels.push_back(fmt::format("{} = {}", name, ToString(value)));
-  }
-  return fmt::format("cell {} ({}{}{})", row.cell, row.part, levels.empty() ? "" : ", ",
-                     fmt::join(levels, ", "));
+std::string CellText(const TrialRecord& row) {
+  return fmt::format("cell {} ({}{}{})", row.cell, row.part, row.levels.empty() ? "" : ", ",
+                     LevelsText(row.levels, " = "));
 }
 
 std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
@@ -138,7 +134,7 @@ std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
     if (!selection.Matches(*row.row, bound.where)) continue;
     Task& task = cells[bound.in_each_cell ? row.row->cell : 0];
     task.rows.push_back(row);
-    if (bound.in_each_cell) task.cell = LevelsText(*row.row);
+    if (bound.in_each_cell) task.cell = CellText(*row.row);
   }
   std::vector<Task> tasks;
   for (auto& [cell, task] : cells) {
@@ -146,6 +142,17 @@ std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
     tasks.push_back(std::move(task));
   }
   return tasks;
+}
+
+void CheckConditions(const std::string& source, std::span<const Bound> bounds,
+                     const RowSelection& selection) {
+  std::vector<InputFault> faults;
+  for (const Bound& bound : bounds) {
+    for (const std::string& message : selection.Objections(bound.where)) {
+      faults.push_back({.source = source, .line = bound.line, .message = message});
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
 }
 
 std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& selection,
@@ -194,7 +201,7 @@ int CheckResult::Count(Verdict verdict) const {
 CheckResult CheckBounds(const std::string& source, const BoundFile& file, const Study& study,
                         std::span<const TrialRecord> rows, std::span<const TrialRecord> baseline) {
   const RowSelection selection(study);
-  selection.Check(source, file.bounds);
+  CheckConditions(source, file.bounds, selection);
   const std::vector<SelectedRow> selected = Pair("--baseline", selection, rows, baseline);
   std::vector<InputFault> faults;
   std::vector<Task> tasks;

@@ -11,7 +11,7 @@ std::string Subject(const BoundResult& result) {
   return result.cell.empty() ? result.text : fmt::format("{} | {}", result.text, result.cell);
 }
 
-// What would decide, or why nothing is known.
+// How many replicates would decide, or why nothing is known.
 std::string Remark(const BoundResult& result) {
   std::string remark = result.note;
   if (result.verdict != Verdict::kUndecided || result.rows == 0) return remark;

@@ -9,7 +9,7 @@ namespace fenestra {
 /// A table of the verdicts, and what they mean.
 std::string CheckForTerminal(const CheckResult& result);
 
-/// The same for a comment on a pull request: what is violated and undecided first, what holds
+/// The result as a comment on a pull request: what is violated and undecided first, what holds
 /// folded away.
 std::string CheckMarkdown(const CheckResult& result);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

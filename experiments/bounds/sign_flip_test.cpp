@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

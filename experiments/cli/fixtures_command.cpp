@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
@@ -15,6 +15,7 @@
 #include "experiments/fixtures/staging_folder.h"
 #include "experiments/fixtures/trial_selection.h"
 #include "experiments/folder_size.h"
+#include "experiments/number_format.h"
 #include "experiments/result_files.h"
 #include "experiments/study_catalogue.h"
 #include "experiments/study_reader.h"
@@ -39,7 +40,7 @@ struct FixtureArguments {
 
 bool IsResult(const fs::path& path) {
   std::error_code error;
-  return path.extension() == ".sqlite" || fs::is_regular_file(path / "results.sqlite", error);
+  return path.extension() == ".sqlite" || fs::is_regular_file(path / ResultStore::kFileName, error);
 }
 
 void ReadStudyInto(FixtureOrder& order, const std::string& study) {
@@ -67,17 +68,9 @@ std::set<FixtureFormat> FormatsOf(const std::vector<std::string>& names) {
 void PrintTrials(const FixtureOrder& order, const std::vector<Cell>& cells) {
   for (const TrialKey& key : order.trials) {
     const Cell& cell = cells[static_cast<size_t>(key.cell)];
-    std::string levels;
-    for (const auto& [name, value] : cell.levels) {
-      levels += fmt::format(" {}={}", name, ToString(value));
-    }
-    fmt::print("{}/{} {} {}{}\n", key.cell, key.trial, cell.part, ToString(cell.sensor), levels);
+    fmt::print("{}/{} {} {}{}{}\n", key.cell, key.trial, cell.part, ToString(cell.sensor),
+               cell.levels.empty() ? "" : " ", LevelsText(cell.levels));
   }
-}
-
-std::string Size(uint64_t bytes) {
-  const double mega = static_cast<double>(bytes) / 1e6;
-  return mega < 1000.0 ? fmt::format("{:.0f} MB", mega) : fmt::format("{:.1f} GB", mega / 1000.0);
 }
 
 FixtureOrder OrderOf(const FixtureArguments& arguments) {
@@ -105,7 +98,7 @@ int MakeFixtures(const FixtureArguments& arguments) {
   const std::vector<Cell> cells = Cells(order.study);
   const std::string what = fmt::format("{} trial{} of '{}'", order.trials.size(),
                                        order.trials.size() == 1 ? "" : "s", order.study.name);
-  const std::string estimate = Size(EstimatedBytes(order, cells));
+  const std::string estimate = Bytes(static_cast<double>(EstimatedBytes(order, cells)));
   if (arguments.dry_run) {
     PrintTrials(order, cells);
     fmt::print("{}, about {}; nothing was written\n", what, estimate);
@@ -125,7 +118,8 @@ int MakeFixtures(const FixtureArguments& arguments) {
     fmt::print(stderr, "fenestra: interrupted; nothing was left in {}\n", order.out.string());
     return kFailure;
   }
-  fmt::print("{} are in {}, {}\n", what, order.out.string(), Size(FolderSize(order.out)));
+  fmt::print("{} are in {}, {}\n", what, order.out.string(),
+             Bytes(static_cast<double>(FolderSize(order.out))));
   return kDone;
 }
 
@@ -140,10 +134,10 @@ int Verify(const FixtureArguments& arguments) {
 
 }  // namespace
 
-void AddFixturesCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddFixturesCommand(Command program) {
+  Command command = program.AddCommand(
       "fixtures", "Writes trials as files for the tests of other programs, with their truth");
-  command->footer(
+  command.Footer(
       "Examples:\n"
       "  fenestra fixtures paper --out fixtures                   the first trial of each cell\n"
       "  fenestra fixtures paper --trials 0-4 --where 'sensor = rgbd and distance_m <= 2' "
@@ -152,30 +146,30 @@ void AddFixturesCommand(CLI::App& program, int& exit_code) {
       "  fenestra fixtures --verify fixtures\n"
       "The same command makes the same bytes. docs/fixtures.md describes the files.");
   const auto arguments = std::make_shared<FixtureArguments>();
-  command->add_option("STUDY|RESULTS", arguments->study,
-                      "Name or file of a study, or the results of one");
-  command->add_option("--out", arguments->out, "Folder for the files, new or empty");
+  command.AddOption("STUDY|RESULTS", arguments->study,
+                    "Name or file of a study, or the results of one");
+  command.AddOption("--out", arguments->out, "Folder for the files, new or empty");
   command
-      ->add_option("--trials", arguments->selection.trials,
-                   "Trials of each cell (0-4), or CELL/TRIALS (7/3,8/0-2)")
-      ->capture_default_str();
-  command->add_option("--cells", arguments->selection.cells, "Only these cells (0,3-5)");
-  command->add_option("--where", arguments->selection.where,
-                      "Only trials with these values, as in the where of a bound");
+      .AddOption("--trials", arguments->selection.trials,
+                 "Trials of each cell (0-4), or CELL/TRIALS (7/3,8/0-2)")
+      .ShowDefault();
+  command.AddOption("--cells", arguments->selection.cells, "Only these cells (0,3-5)");
+  command.AddOption("--where", arguments->selection.where,
+                    "Only trials with these values, as in the where of a bound");
   command
-      ->add_option("--format", arguments->formats,
-                   "bundle, tum (RGB-D), euroc (stereo), several with commas, or all")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"bundle", "tum", "euroc", "all"}))
-      ->capture_default_str();
-  AddPluginOption(*command, arguments->plugins);
-  AddSeedOption(*command, arguments->seed);
-  AddJobsOption(*command, arguments->jobs);
-  command->add_flag("--dry-run", arguments->dry_run, "Show the trials and the size, write nothing");
-  command->add_option("--verify", arguments->verify,
-                      "Check that this folder's files are those that were written");
-  command->callback([arguments, &exit_code] {
-    exit_code = arguments->verify.empty() ? MakeFixtures(*arguments) : Verify(*arguments);
+      .AddOption("--format", arguments->formats,
+                 "bundle, tum (RGB-D), euroc (stereo), several with commas, or all")
+      .Delimiter(',')
+      .OneOf({"bundle", "tum", "euroc", "all"})
+      .ShowDefault();
+  AddPluginOption(command, arguments->plugins);
+  AddSeedOption(command, arguments->seed);
+  AddJobsOption(command, arguments->jobs);
+  command.AddFlag("--dry-run", arguments->dry_run, "Show the trials and the size, write nothing");
+  command.AddOption("--verify", arguments->verify,
+                    "Check that this folder's files are those that were written");
+  command.Action([arguments] {
+    return arguments->verify.empty() ? MakeFixtures(*arguments) : Verify(*arguments);
   });
 }
 

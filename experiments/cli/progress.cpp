@@ -8,23 +8,17 @@
 #include <chrono>
 #include <cmath>
 
+#include "experiments/number_format.h"
+
 namespace fenestra::cli {
 namespace {
 
 constexpr double kRedraw_s = 0.2;
 constexpr int kBarWidth = 24;
 
-// "0:07", "12:34", "3:00:12".
-std::string Duration(double seconds) {
-  const auto s = static_cast<int64_t>(std::llround(seconds));
-  if (s < 3600) return fmt::format("{}:{:02}", s / 60, s % 60);
-  return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
-}
-
-std::string Percent(const DetectorTally& tally) {
+std::string HitRate(const DetectorTally& tally) {
   if (tally.in_view == 0) return "-";
-  return fmt::format("{:.0f}%",
-                     100.0 * static_cast<double>(tally.hits) / static_cast<double>(tally.in_view));
+  return Percent(static_cast<double>(tally.hits) / static_cast<double>(tally.in_view), 0);
 }
 
 }  // namespace
@@ -79,7 +73,7 @@ void Progress::Show() {
   std::string text = fmt::format("{}/{} trials{}", done_, total_, Rate());
   bool first = true;
   for (const auto& [detector, tally] : tallies_) {
-    text += fmt::format("{}{} {}", first ? "  hits: " : ", ", detector, Percent(tally));
+    text += fmt::format("{}{} {}", first ? "  hits: " : ", ", detector, HitRate(tally));
     first = false;
   }
   if (!options_.terminal) {
@@ -104,7 +98,7 @@ std::string Progress::Rate() const {
   if (done_ == done_before_ || elapsed_s <= 0.0) return "";
   const double rate = static_cast<double>(done_ - done_before_) / elapsed_s;
   return fmt::format("  {:.1f}/s  {} left", rate,
-                     Duration(static_cast<double>(total_ - done_) / rate));
+                     Duration(std::round(static_cast<double>(total_ - done_) / rate)));
 }
 
 }  // namespace fenestra::cli

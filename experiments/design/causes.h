@@ -9,8 +9,8 @@ namespace fenestra {
 /// one) and without causes that have no source left. Empty with other designs.
 std::vector<Cause> CausesOf(const Study& study, const Cell& cell);
 
-/// What a part's causes are unless the study says: noise (shot), calibration (rig, calibration; of
-/// stereo), and the drawn factors by what they belong to: pose, light, scene, sensor.
+/// The causes of a part whose study names none: noise (shot), calibration (rig and calibration,
+/// stereo only), and the drawn factors by what they belong to: pose, light, scene, sensor.
 std::vector<Cause> DefaultCauses(const StudyPart& part);
 
 /// All sources of randomness of a part that a cause may name.
@@ -32,7 +32,7 @@ struct PickFreezePlace {
   }
 };
 
-/// Trials in a row.
+/// The number of trials in a row.
 inline int PickFreezeColumns(size_t causes) {
   return static_cast<int>(causes) + 2;
 }

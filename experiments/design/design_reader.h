@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/design/sampling_design.h"
 #include "experiments/study.h"
 
@@ -32,9 +32,9 @@ std::optional<GivenDesign> ReadDesign(YamlReader& reader, const YAML::Node& node
 inline const std::vector<std::string> kDesignKeys{"method", "correlations", "causes"};
 inline const std::vector<std::string> kCorrelationKeys{"between", "spearman"};
 
-/// What of the design concerns the part, with its causes written out. `own`: the part itself gave
-/// it, so that all of it must concern the part; of the study's design that need not be. Notes a
-/// fault where correlations contradict each other and where something varies without a cause.
+/// The design as far as it concerns the part, with its causes written out. `own`: the part itself
+/// gave it, so that all of it must concern the part, which a study's design need not. Notes a fault
+/// where correlations contradict each other and where something varies without a cause.
 SamplingDesign ResolveDesign(YamlReader& reader, const GivenDesign& given, const StudyPart& part,
                              bool own);
 

@@ -1,6 +1,6 @@
 #include "experiments/design/sampling_design.h"
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 

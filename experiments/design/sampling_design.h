@@ -9,7 +9,7 @@ namespace fenestra {
 
 /// How the trials of a cell are spread over what the study draws.
 enum class DesignMethod {
-  kMonteCarlo,      ///< Each trial for itself.
+  kMonteCarlo,      ///< Each trial is drawn independently.
   kLatinHypercube,  ///< Each factor has exactly one trial in each of n equally probable strata.
   kSobol,           ///< Points of a Sobol sequence under Owen's scrambling.
   kSensitivity,     ///< Monte-Carlo in rows of which causes are exchanged one by one.
@@ -32,8 +32,8 @@ struct FactorCorrelation {
   bool operator==(const FactorCorrelation&) const = default;
 };
 
-/// What varies together when an error is traced to its causes: drawn factors, and the trial's own
-/// random streams kShotSource, kRigSource and kCalibrationSource.
+/// Sources of randomness that vary together when an error is traced to its causes: drawn factors,
+/// and the trial's own random streams kShotSource, kRigSource and kCalibrationSource.
 struct Cause {
   std::string name;
   std::vector<std::string> sources;
@@ -41,15 +41,15 @@ struct Cause {
   bool operator==(const Cause&) const = default;
 };
 
-inline constexpr const char* kShotSource = "shot";                ///< Noise of the pictures.
+inline constexpr const char* kShotSource = "shot";                ///< Noise of the images.
 inline constexpr const char* kRigSource = "rig";                  ///< The rig as built.
-inline constexpr const char* kCalibrationSource = "calibration";  ///< What is told of it.
+inline constexpr const char* kCalibrationSource = "calibration";  ///< Its calibration's error.
 
 /// The design of a part. Factors that no correlation names are independent of all others.
 struct SamplingDesign {
   DesignMethod method = DesignMethod::kMonteCarlo;
   std::vector<FactorCorrelation> correlations;
-  std::vector<Cause> causes;  ///< Of kSensitivity; empty with the other methods.
+  std::vector<Cause> causes;  ///< For kSensitivity alone; empty with the other methods.
 
   bool operator==(const SamplingDesign&) const = default;
 };

@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <span>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 
-inline constexpr int kMostSobolDimensions = 1111;  ///< Of OpenTURNS' direction numbers.
+/// OpenTURNS has direction numbers for so many dimensions.
+inline constexpr int kMostSobolDimensions = 1111;
 
 /// The first `count` points of the Sobol sequence, the origin among them, one a row; multiples of
 /// 2⁻³². Every 2^m points from the start are a digital net, in Gray code order.

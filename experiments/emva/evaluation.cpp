@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "core/input_error.h"
+#include "core/io/faults.h"
 
 namespace fenestra::emva {
 namespace {
@@ -21,12 +21,12 @@ struct MeanAndVariance {
   double variance;
 };
 
-// Of two frames: half the variance of their difference, whatever pattern they share.
-MeanAndVariance Temporal(const FrameSet& set, const FrameReader& frames) {
+// The temporal variance by two images: half that of their difference, whatever pattern they share.
+MeanAndVariance Temporal(const ImageSet& set, const ImageReader& images) {
   cv::Mat1d first;
   cv::Mat1d second;
-  frames(set, 0).convertTo(first, CV_64F);
-  frames(set, 1).convertTo(second, CV_64F);
+  images(set, 0).convertTo(first, CV_64F);
+  images(set, 1).convertTo(second, CV_64F);
   const double mean_first = cv::mean(first)[0];
   const double mean_second = cv::mean(second)[0];
   const double mean_square = cv::norm(first, second, cv::NORM_L2SQR) / first.total();
@@ -47,20 +47,20 @@ double Variance(const cv::Mat1d& values, double mean) {
   return cv::norm(values - mean, cv::NORM_L2SQR) / static_cast<double>(values.total());
 }
 
-SpatialVariances Spatial(const FrameSet& set, const FrameReader& frames) {
+SpatialVariances Spatial(const ImageSet& set, const ImageReader& images) {
   cv::Mat1d sum;
   cv::Mat1d squares;
-  for (size_t i = 0; i < set.frames.size(); ++i) {
-    cv::Mat1d frame;
-    frames(set, i).convertTo(frame, CV_64F);
+  for (size_t i = 0; i < set.files.size(); ++i) {
+    cv::Mat1d image;
+    images(set, i).convertTo(image, CV_64F);
     if (sum.empty()) {
-      sum = cv::Mat1d::zeros(frame.size());
-      squares = cv::Mat1d::zeros(frame.size());
+      sum = cv::Mat1d::zeros(image.size());
+      squares = cv::Mat1d::zeros(image.size());
     }
-    sum += frame;
-    squares += frame.mul(frame);
+    sum += image;
+    squares += image.mul(image);
   }
-  const double L = static_cast<double>(set.frames.size());
+  const double L = static_cast<double>(set.files.size());
   const cv::Mat1d average = sum / L;
   const double mean = cv::mean(average)[0];
   const double temporal = cv::mean(squares - average.mul(sum))[0] / (L - 1.0);
@@ -86,23 +86,22 @@ double Root(double variance) {
   return std::sqrt(std::max(variance, 0.0));
 }
 
-std::vector<TransferPoint> TransferOf(const Series& series, const FrameReader& frames) {
+std::vector<TransferPoint> TransferOf(const Series& series, const ImageReader& images) {
   std::map<double, MeanAndVariance> dark;
-  for (const FrameSet& set : series.sets) {
-    if (!set.is_spatial() && set.is_dark()) dark[set.exposure_s] = Temporal(set, frames);
+  for (const ImageSet& set : series.sets) {
+    if (!set.is_spatial() && set.is_dark()) dark[set.exposure_s] = Temporal(set, images);
   }
   std::vector<TransferPoint> points;
-  std::vector<InputFault> faults;
-  for (const FrameSet& set : series.sets) {
+  Faults faults("series");
+  for (const ImageSet& set : series.sets) {
     if (set.is_spatial() || set.is_dark()) continue;
     const auto beside = dark.find(set.exposure_s);
     if (beside == dark.end()) {
-      faults.push_back({"series", 0, 0,
-                        fmt::format("the bright pair at {:g} ms has no dark pair beside it",
-                                    1e3 * set.exposure_s)});
+      faults.Add(fmt::format("the bright pair at {:g} ms has no dark pair beside it",
+                             1e3 * set.exposure_s));
       continue;
     }
-    const MeanAndVariance bright = Temporal(set, frames);
+    const MeanAndVariance bright = Temporal(set, images);
     points.push_back({.exposure_s = set.exposure_s,
                       .photons = set.photons,
                       .mean = bright.mean,
@@ -110,12 +109,10 @@ std::vector<TransferPoint> TransferOf(const Series& series, const FrameReader& f
                       .dark_mean = beside->second.mean,
                       .dark_variance = beside->second.variance});
   }
-  if (faults.empty() && points.size() < kFewestExposures) {
-    faults.push_back({"series", 0, 0,
-                      fmt::format("{} exposures with a bright and a dark pair are fewer than {}",
-                                  points.size(), kFewestExposures)});
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.Require(faults.count() > 0 || points.size() >= kFewestExposures,
+                 fmt::format("{} exposures with a bright and a dark pair are fewer than {}",
+                             points.size(), kFewestExposures));
+  faults.ThrowIfAny();
   std::sort(points.begin(), points.end(),
             [](const TransferPoint& a, const TransferPoint& b) { return a.photons < b.photons; });
   return points;
@@ -217,10 +214,10 @@ void MeasureTransfer(Results& r) {
   r.threshold_photons = (std::sqrt(dark_variance) / r.gain_dn_per_e + 0.5) / r.quantum_efficiency;
 }
 
-void MeasureUniformity(const Series& series, const FrameReader& frames, Results& r) {
-  const FrameSet* bright = nullptr;
-  const FrameSet* dark = nullptr;
-  for (const FrameSet& set : series.sets) {
+void MeasureUniformity(const Series& series, const ImageReader& images, Results& r) {
+  const ImageSet* bright = nullptr;
+  const ImageSet* dark = nullptr;
+  for (const ImageSet& set : series.sets) {
     if (set.is_spatial()) (set.is_dark() ? dark : bright) = &set;
   }
   if (bright == nullptr || dark == nullptr) {
@@ -228,8 +225,8 @@ void MeasureUniformity(const Series& series, const FrameReader& frames, Results&
                      "a stack of bright frames at 50 % of saturation and one of dark "
                      "frames are needed for the spatial figures");
   }
-  const SpatialVariances lit = Spatial(*bright, frames);
-  const SpatialVariances unlit = Spatial(*dark, frames);
+  const SpatialVariances lit = Spatial(*bright, images);
+  const SpatialVariances unlit = Spatial(*dark, images);
   const double K = r.gain_dn_per_e;
   r.dsnu_e = {.total = Root(unlit.total) / K,
               .row = Root(unlit.row) / K,
@@ -244,9 +241,9 @@ void MeasureUniformity(const Series& series, const FrameReader& frames, Results&
 
 }  // namespace
 
-Results Evaluate(const Series& series, const FrameReader& frames) {
+Results Evaluate(const Series& series, const ImageReader& images) {
   Results r{};
-  r.points = TransferOf(series, frames);
+  r.points = TransferOf(series, images);
   r.saturation_point = SaturationOf(r.points);
   if (r.saturation_point + 1 == r.points.size()) {
     throw InputError("series",
@@ -264,7 +261,7 @@ Results Evaluate(const Series& series, const FrameReader& frames) {
   r.largest_snr = std::sqrt(r.saturation_e);
   r.dynamic_range = r.saturation_photons / r.threshold_photons;
   MeasureLinearity(r);
-  MeasureUniformity(series, frames, r);
+  MeasureUniformity(series, images, r);
   return r;
 }
 

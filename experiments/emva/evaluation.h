@@ -17,7 +17,7 @@ struct TransferPoint {
   double light_variance() const { return variance - dark_variance; }
 };
 
-/// A spread over the pixels of a frame, and its parts by row, column and what is left: standard
+/// A spread over the pixels of an image, and its parts by row, column and what is left: standard
 /// deviations.
 struct NonUniformity {
   double total;
@@ -26,11 +26,11 @@ struct NonUniformity {
   double pixel;
 };
 
-/// What EMVA 1288 release 4.0 (linear) says of a camera.
+/// A camera's figures by EMVA 1288 release 4.0 (linear).
 struct Results {
   std::vector<TransferPoint> points;  ///< By exposure.
-  size_t saturation_point;  ///< Of the points: where σ_y² is largest, seen from the end.
-  size_t last_fit_point;    ///< The last with at most 70 % of the saturation's signal.
+  size_t saturation_point;  ///< Index of the point whose σ_y² is largest, seen from the end.
+  size_t last_fit_point;    ///< Index of the last with at most 70 % of the saturation's signal.
 
   double gain_dn_per_e;        ///< K
   double responsivity;         ///< R [DN per photon]
@@ -57,12 +57,12 @@ struct Results {
 ///     σ_y.dark² at least 0.24 DN²;  μ_p.min = (σ_y.dark/K + 1/2)/η;
 ///     DSNU = s_y.dark/K;  PRNU = √(s_y² - s_y.dark²)/(μ_y - μ_y.dark),
 ///
-/// temporal variances by differences of two frames, spatial ones s² of the mean of a stack less
+/// temporal variances by differences of two images, spatial ones s² of the mean of a stack less
 /// what its temporal noise leaves, split into rows, columns and pixels. A part whose variance comes
 /// out negative is 0.
 ///
 /// Throws InputError for a series without what this needs: at least three exposures with a bright
 /// and a dark pair, one bright and one dark stack, light that reaches saturation.
-Results Evaluate(const Series& series, const FrameReader& frames);
+Results Evaluate(const Series& series, const ImageReader& images);
 
 }  // namespace fenestra::emva

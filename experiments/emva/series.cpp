@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "core/input_error.h"
+#include "core/io/faults.h"
 
 namespace fenestra::emva {
 namespace {
@@ -32,15 +32,15 @@ std::optional<double> NumberIn(std::string word) {
 // Reads the lines of one descriptor and collects what is wrong with them.
 class DescriptorReader {
  public:
-  explicit DescriptorReader(const std::filesystem::path& file) : name_(file.string()) {
+  explicit DescriptorReader(const std::filesystem::path& file) : faults_(file.string()) {
     std::ifstream stream(file);
-    if (!stream) throw InputError(name_, "there is no such file, or it cannot be read");
+    if (!stream) throw InputError(file, "there is no such file, or it cannot be read");
     for (std::string line; std::getline(stream, line);) {
       ++line_;
       Read(line);
     }
     Check();
-    if (!faults_.empty()) throw InputError(std::move(faults_));
+    faults_.ThrowIfAny();
   }
 
   Series TakeSeries() { return std::move(series_); }
@@ -51,7 +51,7 @@ class DescriptorReader {
     std::string key;
     if (!(stream >> key) || key.starts_with('#')) return;
     if (key == "v") return;  // The format's version.
-    if (key == "i") return ReadFrame(stream);
+    if (key == "i") return ReadImageName(stream);
     std::vector<double> values;
     for (std::string word; stream >> word;) {
       const auto value = NumberIn(word);
@@ -82,43 +82,44 @@ class DescriptorReader {
 
   void StartSet(double exposure_ns, double photons) {
     series_.sets.push_back(
-        {.exposure_s = exposure_ns * kNanosecond, .photons = photons, .frames = {}});
+        {.exposure_s = exposure_ns * kNanosecond, .photons = photons, .files = {}});
     set_lines_.push_back(line_);
     in_faulty_set_ = false;
   }
 
-  void ReadFrame(std::istringstream& stream) {
+  void ReadImageName(std::istringstream& stream) {
     std::string file;
     std::getline(stream >> std::ws, file);
     while (!file.empty() && (file.back() == '\r' || file.back() == ' ')) file.pop_back();
-    if (in_faulty_set_) return;  // That was reported.
+    if (in_faulty_set_) return;  // Its fault has been noted.
     if (series_.sets.empty()) return Fault("names a file before any exposure");
     std::replace(file.begin(), file.end(), '\\', '/');
-    series_.sets.back().frames.push_back(file);
+    series_.sets.back().files.push_back(file);
   }
 
-  // What the lines together lack.
+  // Notes what the lines together lack.
   void Check() {
     if (series_.size.empty()) Fault("has no line 'n bits width height'");
     std::map<std::pair<bool, double>, int> seen;
     for (size_t i = 0; i < series_.sets.size(); ++i) {
-      const FrameSet& set = series_.sets[i];
+      const ImageSet& set = series_.sets[i];
       line_ = set_lines_[i];
-      if (set.frames.size() < 2) Fault("needs two files: temporal noise is their difference");
+      if (set.files.size() < 2) Fault("needs two files: temporal noise is their difference");
       // The fraction tells bright pairs of one exposure apart.
       const auto key = std::make_pair(set.is_spatial(), set.exposure_s + 1e6 * set.photons);
       if (seen[key]++ > 0) Fault("repeats an exposure");
     }
   }
 
-  void Fault(const std::string& message) { faults_.push_back({name_, line_, 0, message}); }
+  void Fault(std::string message) {
+    faults_.AddFault({.line = line_, .message = std::move(message)});
+  }
 
-  std::string name_;
+  Faults faults_;
   int line_ = 0;
   Series series_;
   std::vector<int> set_lines_;
   bool in_faulty_set_ = false;  ///< Since the last line that should have begun one.
-  std::vector<InputFault> faults_;
 };
 
 }  // namespace
@@ -126,11 +127,11 @@ class DescriptorReader {
 std::string ToDescriptor(const Series& series) {
   std::string text =
       fmt::format("v 4.0\nn {} {} {}\n", series.bits, series.size.width, series.size.height);
-  for (const FrameSet& set : series.sets) {
+  for (const ImageSet& set : series.sets) {
     const double exposure_ns = set.exposure_s / kNanosecond;
     text += set.is_dark() ? fmt::format("d {:.3f}\n", exposure_ns)
                           : fmt::format("b {:.3f} {:.6f}\n", exposure_ns, set.photons);
-    for (std::string file : set.frames) {
+    for (std::string file : set.files) {
       std::replace(file.begin(), file.end(), '/', '\\');
       text += "i " + file + "\n";
     }
@@ -142,10 +143,10 @@ Series ReadDescriptor(const std::filesystem::path& file) {
   return DescriptorReader(file).TakeSeries();
 }
 
-FrameReader FilesBeside(const std::filesystem::path& descriptor, const Series& series) {
+ImageReader FilesBeside(const std::filesystem::path& descriptor, const Series& series) {
   const std::filesystem::path folder = descriptor.parent_path();
-  return [folder, bits = series.bits, size = series.size](const FrameSet& set, size_t frame) {
-    const std::filesystem::path file = folder / set.frames[frame];
+  return [folder, bits = series.bits, size = series.size](const ImageSet& set, size_t index) {
+    const std::filesystem::path file = folder / set.files[index];
     const cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
     if (image.empty()) throw InputError(file.string(), "is missing or not an image");
     if (image.channels() != 1 || (image.depth() != CV_8U && image.depth() != CV_16U)) {

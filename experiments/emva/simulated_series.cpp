@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/atomic_file.h"
-#include "core/demands.h"
-#include "core/image_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/faults.h"
+#include "core/io/image_io.h"
 
 namespace fenestra::emva {
 namespace {
@@ -71,7 +71,7 @@ double SaturationCapacity(const ImageSensorOptions& sensor, double gain) {
   return best_e;
 }
 
-std::vector<std::string> FrameNames(const std::string& set, int count) {
+std::vector<std::string> ImageNames(const std::string& set, int count) {
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.push_back(fmt::format("images/{}_{:03}.png", set, i));
   return names;
@@ -80,19 +80,19 @@ std::vector<std::string> FrameNames(const std::string& set, int count) {
 }  // namespace
 
 void Validate(const SimulationOptions& o) {
-  Demands demand("EMVA series");
-  demand(
+  Faults faults("EMVA series");
+  faults.Require(
       o.size.width >= 8 && o.size.width <= 16384 && o.size.height >= 8 && o.size.height <= 16384,
       fmt::format("frames of {} x {} px are not between 8 and 16384", o.size.width, o.size.height));
-  demand(o.exposures >= 10 && o.exposures <= 10000,
-         fmt::format("{} exposures are not between 10 and 10000", o.exposures));
-  demand(o.frames >= 3 && o.frames <= 10000,
-         fmt::format("stacks of {} frames are not between 3 and 10000", o.frames));
-  demand(o.gain > 0.0, "the gain must be positive");
-  demand(o.quantum_efficiency > 0.0 && o.quantum_efficiency <= 1.0,
-         fmt::format("the sensor sees nothing at {:g} nm", o.wavelength_nm));
-  demand(o.longest_exposure_s > 0.0, "the longest exposure must be positive");
-  demand.ThrowUnlessMet();
+  faults.Require(o.exposures >= 10 && o.exposures <= 10000,
+                 fmt::format("{} exposures are not between 10 and 10000", o.exposures));
+  faults.Require(o.frames >= 3 && o.frames <= 10000,
+                 fmt::format("stacks of {} frames are not between 3 and 10000", o.frames));
+  faults.Require(o.gain > 0.0, "the gain must be positive");
+  faults.Require(o.quantum_efficiency > 0.0 && o.quantum_efficiency <= 1.0,
+                 fmt::format("the sensor sees nothing at {:g} nm", o.wavelength_nm));
+  faults.Require(o.longest_exposure_s > 0.0, "the longest exposure must be positive");
+  faults.ThrowIfAny();
 }
 
 Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& sensor) {
@@ -107,7 +107,7 @@ Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& se
   const auto add = [&](double exposure_s, bool bright, const std::string& name, int count) {
     series.sets.push_back({.exposure_s = exposure_s,
                            .photons = bright ? exposure_s * photons_per_s : 0.0,
-                           .frames = FrameNames(name, count)});
+                           .files = ImageNames(name, count)});
   };
   for (int i = 1; i <= options.exposures; ++i) {
     const double exposure_s = exposure(static_cast<double>(i) / options.exposures);
@@ -120,15 +120,15 @@ Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& se
   return series;
 }
 
-FrameReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
+ImageReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
                      const RandomStream& camera) {
   const ImageSensor instance(sensor, options.size, camera.Child("pattern"));
-  return [instance, options, camera](const FrameSet& set, size_t frame) {
+  return [instance, options, camera](const ImageSet& set, size_t index) {
     const double electrons_per_s = options.quantum_efficiency * set.photons / set.exposure_s;
     const cv::Mat1f light(options.size, static_cast<float>(electrons_per_s));
     const RandomStream noise = camera.Child(set.is_spatial() ? "stack" : "pair")
                                    .Child("exposure", std::bit_cast<uint64_t>(set.exposure_s))
-                                   .Child(set.is_dark() ? "dark" : "bright", frame);
+                                   .Child(set.is_dark() ? "dark" : "bright", index);
     return instance.Expose(light, {.exposure_s = set.exposure_s, .gain = options.gain}, noise);
   };
 }
@@ -137,7 +137,7 @@ PutIn PutInBy(const SimulationOptions& options, const ImageSensorOptions& sensor
   const ImageSensor instance(sensor, {8, 8}, RandomStream(0));
   return {.gain_dn_per_e = instance.DnPerElectron(options.gain),
           .quantum_efficiency = options.quantum_efficiency,
-          // A frame's rows differ by their own noise, too.
+          // An image's rows differ by their own noise, too.
           .dark_noise_e = sensor.noise ? std::hypot(sensor.read_noise_e, sensor.row_noise_e) : 0.0,
           .dark_current_e_s = instance.DarkElectrons(1.0),
           .saturation_e = SaturationCapacity(sensor, options.gain),
@@ -146,13 +146,13 @@ PutIn PutInBy(const SimulationOptions& options, const ImageSensorOptions& sensor
 }
 
 std::filesystem::path WriteSeries(const std::filesystem::path& folder, const Series& series,
-                                  const FrameReader& frames) {
-  for (const FrameSet& set : series.sets) {
-    for (size_t i = 0; i < set.frames.size(); ++i) {
-      const cv::Mat1w dn = frames(set, i);
+                                  const ImageReader& images) {
+  for (const ImageSet& set : series.sets) {
+    for (size_t i = 0; i < set.files.size(); ++i) {
+      const cv::Mat1w dn = images(set, i);
       cv::Mat image = dn;
       if (series.bits <= 8) dn.convertTo(image, CV_8U);
-      WritePng(folder / set.frames[i], image);
+      WritePng(folder / set.files[i], image);
     }
   }
   const std::filesystem::path descriptor = folder / "emva1288.txt";

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/emva/evaluation.h"
 #include "sim/image_sensor.h"
 
@@ -10,7 +10,7 @@ namespace fenestra::emva {
 struct SimulationOptions {
   cv::Size size{752, 480};
   int exposures = 50;  ///< Release 4.0 asks for at least 50.
-  int frames = 100;    ///< Of each stack for the spatial figures.
+  int frames = 100;    ///< Images in each stack for the spatial figures.
   double gain = 1.0;
   double wavelength_nm = 530.0;
   double quantum_efficiency = 0.524;  ///< At that wavelength.
@@ -24,12 +24,12 @@ void Validate(const SimulationOptions& options);
 /// names of their files.
 Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& sensor);
 
-/// Takes the frames with a simulated sensor: Poisson photons whose mean is the same in all pixels.
-/// Each frame's noise belongs to its set and number.
-FrameReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
+/// Takes the images with a simulated sensor: Poisson photons whose mean is the same in all pixels.
+/// Each image's noise belongs to its set and number.
+ImageReader Simulate(const SimulationOptions& options, const ImageSensorOptions& sensor,
                      const RandomStream& camera);
 
-/// What the evaluation should find: the sensor's own figures.
+/// The sensor's own figures, which the evaluation should find.
 struct PutIn {
   double gain_dn_per_e;
   double quantum_efficiency;
@@ -43,9 +43,9 @@ struct PutIn {
 };
 PutIn PutInBy(const SimulationOptions& options, const ImageSensorOptions& sensor);
 
-/// Writes all frames (PNG, of 8 bits or 16) and, at last, the descriptor emva1288.txt into the
+/// Writes all images (PNG, of 8 bits or 16) and, at last, the descriptor emva1288.txt into the
 /// folder. Returns the descriptor's path.
 std::filesystem::path WriteSeries(const std::filesystem::path& folder, const Series& series,
-                                  const FrameReader& frames);
+                                  const ImageReader& images);
 
 }  // namespace fenestra::emva

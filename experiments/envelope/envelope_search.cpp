@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

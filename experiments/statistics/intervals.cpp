@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {
@@ -37,7 +37,7 @@ struct MeanSquare {
   double error;  // s / (m √n), the standard error of ln m
 };
 
-// Of all of squares, or of those at the resampled places.
+// The root mean square of all squares, or of those at the resampled places.
 template <typename At>
 std::optional<MeanSquare> MeanSquareOf(size_t n, At at) {
   double sum = 0.0;

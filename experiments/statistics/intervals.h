@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/statistics.h"
 
 namespace fenestra {

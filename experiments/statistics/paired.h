@@ -39,15 +39,15 @@ struct PairedErrors {
   std::span<const double> second;
 };
 
-/// What pairs of errors say; all of it but the mean takes misses as they are.
+/// Comparison of paired errors; everything but the mean takes misses as they are.
 struct ErrorComparison {
   int pairs = 0;
   int first_nearer = 0;
   int second_nearer = 0;  ///< The rest are equal, mostly two misses.
   double sign_test_p = 1.0;
   int both_finite = 0;
-  /// Of first minus second over pairs that are both finite, with its t interval (MeanInterval);
-  /// from two such pairs on.
+  /// Mean of first minus second over pairs that are both finite, with its t interval
+  /// (MeanInterval); from two such pairs on.
   std::optional<double> mean_difference;
   std::optional<Interval> mean_difference_interval;
 };

@@ -15,9 +15,9 @@ constexpr double kKnownSize_m = 1e-6;
 // A window may be flush with its wall or deep in its reveal.
 constexpr double kUnknownWall_m = 0.1;
 
-Knowledge KnowledgeFor(Known known, const TrialInformation& information) {
-  Knowledge knowledge;
-  if (known == Known::kAsTold || known == Known::kSize) {
+PriorKnowledge PriorKnowledgeFor(Known known, const TrialInformation& information) {
+  PriorKnowledge knowledge;
+  if (known == Known::kNominal || known == Known::kSize) {
     knowledge.calibration = information.calibration;
     if (information.sensor == SensorKind::kRgbd) knowledge.wall_sigma_m = kUnknownWall_m;
   }
@@ -72,7 +72,7 @@ CellBounds BoundsOfCell(const Study& study, const Cell& cell, int trials) {
     for (size_t i = 0; i < kAllKnown.size(); ++i) {
       const auto& information = simulated.information;
       bounds[i].push_back(information
-                              ? BoundOf(*information, KnowledgeFor(kAllKnown[i], *information))
+                              ? BoundOf(*information, PriorKnowledgeFor(kAllKnown[i], *information))
                               : std::nullopt);
     }
   }

@@ -10,12 +10,11 @@
 
 namespace fenestra {
 
-/// The states of knowledge that the table compares.
-/// kAsTold: stereo detectors know the calibration that the study tells them, RGB-D detectors do not
-/// know how far the frame stands behind the wall's face; kGeometry: the true calibration, and that
-/// distance.
-enum class Known { kAsTold, kGeometry, kSize, kGeometryAndSize };
-inline constexpr std::array<Known, 4> kAllKnown = {Known::kAsTold, Known::kGeometry, Known::kSize,
+/// The states of prior knowledge that the table compares. kNominal: stereo detectors know their
+/// nominal calibration, RGB-D detectors do not know how far the window frame stands behind the wall's
+/// face; kGeometry: the true calibration, and that distance.
+enum class Known { kNominal, kGeometry, kSize, kGeometryAndSize };
+inline constexpr std::array<Known, 4> kAllKnown = {Known::kNominal, Known::kGeometry, Known::kSize,
                                                    Known::kGeometryAndSize};
 
 /// The bounds of one cell of a study.

@@ -1,7 +1,7 @@
 #include "experiments/theory/calibration_law.h"
 
-#include "core/check.h"
-#include "experiments/theory/frame_state.h"
+#include "core/geometry/pose.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {
@@ -23,7 +23,7 @@ PairMatrix MovedRight(const Eigen::Vector3d& p_RL, double turn_rad, double shift
   return covariance;
 }
 
-// Of a rig that stands within its tolerances around its design.
+// The covariance of a rig that stands within its tolerances around its design.
 PairMatrix OfTolerances(const StereoRigOptions& options) {
   PairMatrix covariance = PairMatrix::Zero();
   if (options.as_designed) return covariance;

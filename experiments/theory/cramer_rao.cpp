@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -11,7 +11,7 @@ namespace fenestra {
 ///
 ///     F = Σ ∂μ ∂μᵀ/V + ½ ∂V ∂Vᵀ/V².
 ///
-/// What is known of an unknown beforehand, with variance s², adds 1/s² to F (the bound of H. L. Van
+/// Prior knowledge of an unknown, with variance s², adds 1/s² to F (the bound of H. L. Van
 /// Trees, "Detection, Estimation, and Modulation Theory I", 1968, section 2.4, for normal priors).
 
 /// The covariance bound of the first `count` unknowns, all others being unknown too. Unknowns that

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/observation.h"
+#include "core/detection/observation.h"
 #include "experiments/theory/frame_state.h"
 #include "renderers/ray_caster.h"
 #include "sim/structured_light_sensor.h"
@@ -51,8 +51,8 @@ class DepthTheory {
   bool StandsOut(const InfraredLight& light) const;
 
   StructuredLightOptions options_;
-  CameraModel image_camera_;  ///< Of the depth image.
-  RayGrid rays_;              ///< Of the infra-red camera, coarser.
+  CameraModel image_camera_;  ///< The depth image's.
+  RayGrid rays_;              ///< The infra-red camera's, but coarser.
   double window_px_;          ///< N, in depth pixels.
   double pattern_mean_;
   double focal_times_baseline_;

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "sim/ground_truth.h"
 
 namespace fenestra {
@@ -35,8 +35,5 @@ enum class FrameEdge { kOuter, kInner };
 
 /// `place`: (-1, -1) is the rectangle's bottom left, (1, 1) its top right.
 FramePoint PointOn(const FrameState& frame, FrameEdge edge, const Eigen::Vector2d& place);
-
-/// [v]× with [v]× w = v × w.
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v);
 
 }  // namespace fenestra

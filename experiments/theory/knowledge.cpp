@@ -4,7 +4,7 @@
 
 namespace fenestra {
 
-Eigen::MatrixXd WithSizePrior(const Eigen::MatrixXd& information, const Knowledge& knowledge) {
+Eigen::MatrixXd WithSizePrior(const Eigen::MatrixXd& information, const PriorKnowledge& knowledge) {
   Eigen::MatrixXd known = information;
   if (!knowledge.size_sigma_m) return known;
   const double prior = 1.0 / (*knowledge.size_sigma_m * *knowledge.size_sigma_m);

@@ -10,7 +10,7 @@
 namespace fenestra {
 namespace {
 
-constexpr int kSegments = 16;   // Of a side.
+constexpr int kSegments = 16;   // Per side.
 constexpr int kMostLines = 64;  // Across a side.
 constexpr double kMostMargin_px = 16.0;
 

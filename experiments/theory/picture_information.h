@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "experiments/theory/frame_state.h"
 #include "experiments/theory/pixel_noise.h"
 #include "sim/lens.h"
@@ -21,7 +21,7 @@ struct PictureView {
   const cv::Mat1f& electrons;  ///< Expected in each pixel, without noise.
   PixelNoise noise;
   PointSpread spread;
-  int blur_unknown;                        ///< What is added to σ everywhere.
+  int blur_unknown;                        ///< The unknown that is added to σ everywhere.
   int level_unknown;                       ///< The first of kLevelsOfPicture.
   std::optional<int> camera_unknown = {};  ///< First of the 9 of CameraModel::ParameterVector.
   std::optional<int> pose_unknown = {};  ///< First of 6: turn δ, R_VC = exp(δ) R; shift of p_VC.
@@ -33,7 +33,7 @@ struct PictureView {
 /// over a sixteenth of a side. Sides count as if nothing stood before them; what is in front of one
 /// counts for how bright it is there. Where two sides meet, each counts as if it were alone.
 ///
-/// Of a side that more than 64 lines cross, evenly chosen ones count for the others.
+/// If more than 64 lines cross a side, evenly chosen ones count for the others.
 ///
 /// nullopt if the camera does not see all corners.
 std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const PictureView& view,

@@ -1,8 +1,8 @@
 #include "experiments/theory/rgbd_information.h"
 
-#include <cmath>
 #include <opencv2/core.hpp>
 
+#include "core/io/srgb.h"
 #include "experiments/theory/cramer_rao.h"
 #include "experiments/theory/picture_information.h"
 
@@ -10,17 +10,15 @@ namespace fenestra {
 namespace {
 
 constexpr int kChannels = 3;
-constexpr int kBlurs = kDepthUnknowns;
-constexpr int kLevels = kBlurs + kChannels;
-constexpr int kUnknowns = kLevels + kChannels * kLevelsOfPicture;
+constexpr int kColorBlurs = kDepthUnknowns;
+constexpr int kColorLevels = kColorBlurs + kChannels;
+constexpr int kColorUnknowns = kColorLevels + kChannels * kLevelsOfPicture;
 
-// Photo-electrons of sRGB values (IEC 61966-2-1).
+// Photo-electrons of sRGB values.
 cv::Mat1f Decoded(const cv::Mat3b& color, int channel, double full_scale_e) {
   cv::Mat1f linear(1, 256);
   for (int i = 0; i < 256; ++i) {
-    const double v = i / 255.0;
-    const double x = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    linear(i) = static_cast<float>(full_scale_e * x);
+    linear(i) = static_cast<float>(full_scale_e * LinearFromSrgb(i / 255.0));
   }
   cv::Mat1b values;
   cv::extractChannel(color, values, channel);
@@ -35,7 +33,7 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
                                                const RgbdCalibration& cameras,
                                                const ColorCameraOptions& options,
                                                const cv::Mat3b& color, const DepthMatrix& depth) {
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kColorUnknowns, kColorUnknowns);
   information.topLeftCorner<kDepthUnknowns, kDepthUnknowns>() = depth;
   const PixelNoise noise = PixelNoise::Encoded(options.sensor, {.exposure_s = 0.0, .gain = 1.0});
   const std::array<double, kChannels> blur = {options.blue_blur, 1.0, options.red_blur};
@@ -48,9 +46,9 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
                            .noise = noise,
                            .spread = {.centre_sigma_px = scale * options.lens.blur_sigma_px,
                                       .corner_sigma_px = scale * options.lens.corner_blur_sigma_px},
-                           .blur_unknown = kBlurs + channel,
-                           .level_unknown = kLevels + channel * kLevelsOfPicture};
-    const auto picture = PictureInformation(frame, view, kUnknowns);
+                           .blur_unknown = kColorBlurs + channel,
+                           .level_unknown = kColorLevels + channel * kLevelsOfPicture};
+    const auto picture = PictureInformation(frame, view, kColorUnknowns);
     if (!picture) return std::nullopt;
     information += *picture;
   }
@@ -58,7 +56,7 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
 }
 
 std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
-                                         const Knowledge& knowledge) {
+                                         const PriorKnowledge& knowledge) {
   Eigen::MatrixXd known = WithSizePrior(information, knowledge);
   if (knowledge.wall_sigma_m) {
     known(kWallUnknown, kWallUnknown) += 1.0 / (*knowledge.wall_sigma_m * *knowledge.wall_sigma_m);

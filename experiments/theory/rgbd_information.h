@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "experiments/theory/depth_information.h"
 #include "experiments/theory/knowledge.h"
 #include "sim/color_camera.h"
@@ -23,6 +23,6 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
 /// The bound on the centroid's covariance [m²]; nullopt where there is none: without a return from
 /// depth, a frame of unknown size may be anywhere along its line of sight.
 std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
-                                         const Knowledge& knowledge);
+                                         const PriorKnowledge& knowledge);
 
 }  // namespace fenestra

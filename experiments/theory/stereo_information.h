@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "experiments/theory/frame_state.h"
 #include "experiments/theory/knowledge.h"
 #include "experiments/theory/pixel_noise.h"
@@ -12,7 +12,7 @@
 
 namespace fenestra {
 
-/// What the pixels of a pair would hold without noise, and their noise.
+/// The pixels of a pair as they would be without noise, and their noise.
 struct StereoPictures {
   StereoCalibration cameras;  ///< As they truly are.
   cv::Mat1f left_e;           ///< Photo-electrons of the exposure.
@@ -29,6 +29,6 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
 
 /// The bound on the centroid's covariance [m²]; nullopt where there is none.
 std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
-                                           const Knowledge& knowledge);
+                                           const PriorKnowledge& knowledge);
 
 }  // namespace fenestra

@@ -49,13 +49,14 @@ std::optional<TrialInformation> InformationOf(const StructuredLightSensor& senso
 }
 
 std::optional<Eigen::Matrix3d> BoundOf(const TrialInformation& information,
-                                       const Knowledge& knowledge) {
+                                       const PriorKnowledge& knowledge) {
   return information.sensor == SensorKind::kStereo ? StereoBound(information.fisher, knowledge)
                                                    : RgbdBound(information.fisher, knowledge);
 }
 
-Knowledge KnowledgeOf(const DetectorChoice& detector, const TrialInformation& information) {
-  Knowledge knowledge{.size_sigma_m = {}, .calibration = information.calibration};
+PriorKnowledge PriorKnowledgeOf(const DetectorChoice& detector,
+                                const TrialInformation& information) {
+  PriorKnowledge knowledge{.size_sigma_m = {}, .calibration = information.calibration};
   const auto expected_m = NumberOption(detector, "expected_width_m");
   if (expected_m && *expected_m > 0.0) {
     knowledge.size_sigma_m = NumberOption(detector, "expected_size_sigma_m");

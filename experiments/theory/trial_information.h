@@ -12,12 +12,12 @@
 
 namespace fenestra {
 
-/// What the observation of one trial tells of its target, from which the bound for every detector
-/// follows. See docs/theory.md.
+/// The information that the observation of one trial has on its target, from which the bound for
+/// every detector follows. See docs/theory.md.
 struct TrialInformation {
   SensorKind sensor;
   Eigen::MatrixXd fisher;  ///< Unknowns as in StereoInformation or RgbdInformation.
-  /// How far the calibration that detectors are told may be from the truth; nullopt: not at all.
+  /// Covariance of the nominal calibration's error; nullopt: it is the truth.
   std::optional<PairMatrix> calibration;
 };
 
@@ -33,7 +33,7 @@ struct TargetOptions {
   double setback_m;  ///< Front of the frame behind the wall's face.
 };
 
-/// The same for an RGB-D observation that the sensor made at X_WB.
+/// The information of an RGB-D observation that the sensor made at X_WB.
 std::optional<TrialInformation> InformationOf(const StructuredLightSensor& sensor,
                                               const DepthTheory& theory,
                                               const RgbdObservation& observation,
@@ -44,10 +44,11 @@ std::optional<TrialInformation> InformationOf(const StructuredLightSensor& senso
 /// The bound on the covariance of p_CO for an unbiased estimate with this knowledge [m²]; nullopt
 /// if the observation does not determine the centroid.
 std::optional<Eigen::Matrix3d> BoundOf(const TrialInformation& information,
-                                       const Knowledge& knowledge);
+                                       const PriorKnowledge& knowledge);
 
-/// What a detector knows: the calibration that the trial tells it, and the size that it expects, if
-/// its options expected_width_m and expected_size_sigma_m say so.
-Knowledge KnowledgeOf(const DetectorChoice& detector, const TrialInformation& information);
+/// A detector's prior knowledge: the calibration that the trial gives it, and the size that it
+/// expects, if its options expected_width_m and expected_size_sigma_m say so.
+PriorKnowledge PriorKnowledgeOf(const DetectorChoice& detector,
+                                const TrialInformation& information);
 
 }  // namespace fenestra

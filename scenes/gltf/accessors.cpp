@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/element_layout.h"
 
 namespace fenestra::gltf {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/values.h"
 
 namespace fenestra::gltf {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/glb.h"
 
 namespace fenestra::gltf {
@@ -92,6 +92,10 @@ Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget) {
   document.json = ParseJson(file, text);
   if (!document.json.is_object()) throw InputError(file, "the JSON is not an object");
   return document;
+}
+
+std::string MemberPointer(const std::string& name) {
+  return (json::json_pointer() / name).to_string();
 }
 
 }  // namespace fenestra::gltf

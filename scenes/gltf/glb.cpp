@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/bytes.h"
 
 namespace fenestra::gltf {

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra::gltf {
 namespace {

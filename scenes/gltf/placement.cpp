@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/values.h"
 
 namespace fenestra::gltf {

@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <numeric>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/gltf/accessors.h"
 #include "scenes/gltf/triangles.h"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <mutex>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/report.h"
 #include "experiments/run_study.h"
 #include "experiments/run_trials.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

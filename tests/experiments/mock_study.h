@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/report.h"
 #include "experiments/run_study.h"
 #include "experiments/study_reader.h"

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "experiments/paired_ratio_report.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

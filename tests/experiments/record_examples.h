@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra::testing {

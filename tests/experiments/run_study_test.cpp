@@ -13,7 +13,7 @@
 #include <set>
 #include <thread>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "tests/experiments/mock_study.h"
 #include "tests/support/temporary_folder.h"
 

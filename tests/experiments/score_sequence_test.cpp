@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/calibration_io.h"
-#include "core/input_error.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/input_error.h"
 #include "experiments/report.h"
 #include "experiments/run_study.h"
 #include "experiments/sequence_writer.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <map>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/statistics/looks.h"
 #include "tests/experiments/study_text.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/experiments/record_examples.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/observation_files.h"
+#include "core/detection/observation_files.h"
 #include "experiments/cell_bench.h"
 #include "experiments/scoring.h"
 #include "experiments/study_reader.h"

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/sequence.h"
 #include "experiments/study_reader.h"
 #include "tests/fuzz/input_file.h"

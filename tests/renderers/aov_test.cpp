@@ -3,7 +3,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/fresnel.h"
 #include "renderers/ray_caster.h"
 #include "scenes/facade.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/diffuse_light.h"
 #include "renderers/ray_caster.h"
 #include "scenes/facade.h"

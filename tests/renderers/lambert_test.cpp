@@ -3,7 +3,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/ray_caster.h"
 #include "scenes/facade.h"
 #include "scenes/paper_target.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "renderers/mip_map.h"
 #include "renderers/ray_caster.h"
 #include "tests/renderers/test_scenes.h"

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "renderers/traced_scene.h"
 #include "scenes/solid_lattice.h"

@@ -7,7 +7,8 @@
 #include <numbers>
 #include <set>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "scenes/facade_check.h"
 #include "scenes/facade_plan.h"
 #include "scenes/facade_shutters.h"
 #include "tests/scenes/facade_examples.h"

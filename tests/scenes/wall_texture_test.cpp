@@ -6,7 +6,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/facade.h"
 #include "scenes/wall_pattern.h"
 #include "tests/scenes/mesh_checks.h"

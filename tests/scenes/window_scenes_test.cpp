@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/facade.h"
 #include "scenes/paper_target.h"
 #include "tests/scenes/mesh_checks.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/paper_target.h"
 #include "sim/moving_rays.h"
 #include "sim/structured_light_sensor.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/paper_target.h"
 #include "sim/viewpoint.h"
 

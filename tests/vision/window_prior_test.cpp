@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/frame/quadrilateral.h"
+
 namespace fenestra {
 namespace {
 
@@ -18,10 +20,6 @@ constexpr double kFollow_px = 1.6;  // Largest step between rows; more than that
 constexpr int kMissingRows = 2;
 constexpr double kObliqueness =
     0.7;  // tan 35°: the directions of neighbouring sides overlap by 20°.
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 struct ChainPoint {
   double u;

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/frame/edge_chains.h"
+#include "vision/frame/quadrilateral.h"
 
 namespace fenestra {
 namespace {
@@ -20,10 +21,6 @@ constexpr double kJoinedDarkness = 0.6;
 // off its corners.
 constexpr double kSameAcross_px = 1.5;
 constexpr double kSameAlong_px = 4.0;
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 double Weight(const EdgeSegment& s) {
   return s.Length() * s.darkness;

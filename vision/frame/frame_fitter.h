@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/frame/frame_border.h"
 #include "vision/frame/frame_fit.h"
 #include "vision/frame/frame_knowledge.h"

@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/frame/frame_knowledge.h"
 #include "vision/frame/frame_rectangle.h"
 #include "vision/window_prior.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/frame/edge_segment.h"
 
 namespace fenestra {

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/frame/darkness.h"
 #include "vision/frame/frame_fit.h"
 

@@ -1,19 +1,12 @@
 #include "vision/frame/frame_search.h"
 
-#include <numbers>
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {
 
 using Options = FrameSearchOptions;
 using Table = ParameterTable<Options>;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
 
 void AddShape(Table& table) {
   table
@@ -69,8 +62,6 @@ const Table& FrameSearchParameters() {
   }();
   return table;
 }
-
-#undef FENESTRA_FIELD
 
 std::vector<std::string> FaultsOf(const Options& options) {
   std::vector<std::string> faults;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
+#include "core/io/parameter_table.h"
 #include "vision/frame/frame_limits.h"
 
 namespace fenestra {

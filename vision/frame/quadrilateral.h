@@ -11,6 +11,12 @@ namespace fenestra {
 /// Corners in the image, clockwise as seen: top left, top right, bottom right, bottom left.
 using Quadrilateral = std::array<Eigen::Vector2d, 4>;
 
+/// a × b [px²]; positive where a turns clockwise, as seen, into b.
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
+/// Whether it turns clockwise at every corner.
+bool IsConvex(const Quadrilateral& quadrilateral);
+
 /// Fits a convex quadrilateral to a closed contour. Its four sides are lines fitted to the
 /// contour's points with Huber's loss, leaving out the ends of each side, where the neighbouring
 /// side would bias the fit. Its corners are the intersections of these lines and so have sub-pixel

@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 #include "vision/frame/frame_rectangle.h"
 
 namespace fenestra {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 

@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "vision/rgbd/depth_registration.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "vision/rgbd/depth_points.h"
 
 namespace fenestra {

@@ -4,8 +4,8 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/observation.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
 
 namespace fenestra {
 

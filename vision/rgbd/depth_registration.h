@@ -3,9 +3,9 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "core/calibration.h"
-#include "core/depth_carrier.h"
-#include "core/observation.h"
+#include "core/detection/depth_reprojection.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
 
 namespace fenestra {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "vision/frame/frame_rectangle.h"
 #include "vision/frame/quadrilateral.h"
 #include "vision/rgbd/depth_plane.h"

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "vision/frame/frame_adjustment.h"
 #include "vision/rgbd/depth_plane.h"
 #include "vision/rgbd/frame_depth.h"

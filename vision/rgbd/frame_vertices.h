@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/rgbd/cloud_shape.h"
 #include "vision/rgbd/narf_key_points.h"
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 
 namespace fenestra {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 #include "vision/rgbd/dark_cloud.h"
 #include "vision/rgbd/diagonals.h"
 #include "vision/rgbd/dominant_plane.h"

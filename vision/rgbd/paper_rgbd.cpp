@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/rgbd/crossing_covariance.h"
 #include "vision/rgbd/depth_picture.h"
 #include "vision/rgbd/frame_vertices.h"

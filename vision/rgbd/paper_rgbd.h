@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "vision/rgbd/cloud_shape.h"
 #include "vision/rgbd/dark_cloud.h"
 #include "vision/rgbd/depth_registration.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/parameter_table.h"
+#include "core/io/parameter_table.h"
 #include "vision/window_prior.h"
 
 namespace fenestra {

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/observation.h"
+#include "core/detection/observation.h"
 #include "vision/rgbd/depth_points.h"
 #include "vision/rgbd/frame_planes.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
@@ -31,11 +31,6 @@ constexpr double kLeastOfColor = 0.5;
 // within a window.
 constexpr double kMostUneven = 4.0;
 constexpr double kBlack_dn = 8.0;
-
-const PlaneRgbdOptions& Validated(const PlaneRgbdOptions& options) {
-  Validate(options);
-  return options;
-}
 
 const RgbdCalibration& Checked(const RgbdCalibration& calibration) {
   if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "vision/frame/frame_fitter.h"
 #include "vision/rgbd/depth_points.h"
 #include "vision/rgbd/plane_rgbd_options.h"

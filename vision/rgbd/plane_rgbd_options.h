@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/parameter_table.h"
+#include "core/io/parameter_table.h"
 #include "vision/frame/frame_search.h"
 #include "vision/window_prior.h"
 

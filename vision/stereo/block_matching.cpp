@@ -3,7 +3,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
@@ -16,11 +16,6 @@ namespace {
 constexpr double kInnerContrast = 0.4;
 constexpr double kOpening = 0.5;  // Least share of the places along the inner sides.
 constexpr double kLight = 0.9;    // See BrightBand.
-
-const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
-  Validate(options);
-  return options;
-}
 
 const StereoObservation& StereoPart(const Observation& observation) {
   const auto* stereo = std::get_if<StereoObservation>(&observation);

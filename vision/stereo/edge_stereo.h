@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "vision/frame/frame_fitter.h"
 #include "vision/frame/frame_limits.h"
 #include "vision/stereo/edge_stereo_options.h"

@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/frame/quadrilateral.h"
 #include "vision/stereo/matched_patch.h"
 #include "vision/window_prior.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/frame/darkness.h"
 #include "vision/stereo/closed_contour.h"
 #include "vision/stereo/depth_image.h"
@@ -17,11 +17,6 @@
 
 namespace fenestra {
 namespace {
-
-const PaperStereoOptions& Validated(const PaperStereoOptions& options) {
-  Validate(options);
-  return options;
-}
 
 FrameCriteria Criteria(const PaperStereoOptions& options) {
   return {.window_px = options.sad_window_px,

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "vision/stereo/block_matching.h"
 #include "vision/stereo/depth_image.h"
 #include "vision/stereo/frame_hypothesis.h"

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 #include "vision/frame/quadrilateral.h"
 #include "vision/frame/window_shape.h"
 #include "vision/stereo/disparity_plane.h"

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/bounds/bound_text.h"
 #include "tests/experiments/bounds/simulated_rows.h"
 #include "tests/experiments/record_examples.h"

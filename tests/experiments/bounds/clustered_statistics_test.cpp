@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/bounds/sign_flip_test.h"
 #include "experiments/statistics.h"
 

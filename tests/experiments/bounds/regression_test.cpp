@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/bounds/bound_text.h"
 #include "experiments/bounds/check.h"
 #include "tests/experiments/bounds/simulated_rows.h"

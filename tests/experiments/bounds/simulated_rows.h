@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/study.h"
 #include "experiments/trial_record.h"
 

@@ -85,7 +85,7 @@ TEST_F(FixturesCommandTest, ADryRunShowsTrialsAndSizeAndWritesNothing) {
       study_, Out("out")));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text,
-              AllOf(HasSubstr("3/0 main rgbd distance_m=3\n3/1 main rgbd"),
+              AllOf(HasSubstr("3/0 main rgbd distance_m 3\n3/1 main rgbd"),
                     HasSubstr("2 trials of 'small', about"), HasSubstr("nothing was written")));
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

@@ -43,7 +43,7 @@ TEST(ProgressTest, ATerminalShowsRateRemainingTimeAndHitRates) {
       AddTrial(progress, i < 5 ? Outcome::kMissed : Outcome::kHit);
     }
     AddTrial(progress, Outcome::kHit);  // Too soon to be shown.
-    EXPECT_THAT(desk.text, AllOf(HasSubstr("10/40 trials  2.0/s  0:15 left  hits: a 100%, b 50%"),
+    EXPECT_THAT(desk.text, AllOf(HasSubstr("10/40 trials  2.0/s  15 s left  hits: a 100 %, b 50 %"),
                                  Not(HasSubstr("\n")), Not(HasSubstr("11/40"))));
   }
   EXPECT_TRUE(desk.text.ends_with("\r\x1b[K"));
@@ -66,7 +66,7 @@ TEST(ProgressTest, ElsewhereALineIsWrittenNowAndThen) {
   }
   EXPECT_EQ(std::count(desk.text.begin(), desk.text.end(), '\n'), 3);
   EXPECT_THAT(desk.text,
-              AllOf(HasSubstr("90/7300 trials  1.0/s  2:00:10 left  hits: a 100%, b -\n"),
+              AllOf(HasSubstr("90/7300 trials  1.0/s  2 h 00 min left  hits: a 100 %, b -\n"),
                     Not(HasSubstr("\r"))));
 }
 
@@ -84,7 +84,7 @@ TEST(ProgressTest, AQuickRunSaysNothingAndAContinuedOneCountsOn) {
   desk.now_s += 60.0;
   AddTrial(continued, Outcome::kHit);
   // The rate is that of this run alone.
-  EXPECT_THAT(desk.text, HasSubstr("5/10 trials  0.0/s  5:00 left  hits: a 40%, b 100%"));
+  EXPECT_THAT(desk.text, HasSubstr("5/10 trials  0.0/s  5 min 00 s left  hits: a 40 %, b 100 %"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/emva/simulated_series.h"
 
 namespace fenestra::emva {
@@ -15,7 +15,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// 10-bit output, small frames. With n = 48,000 pixels a pair's variance is known to √(2/n) = 0.65 %
+// 10-bit output, small images. With n = 48,000 pixels a pair's variance is known to √(2/n) = 0.65 %
 // and the slope K over 35 of them to about 0.15 %; σ_d, from 50 dark pairs, to 0.1 %; DSNU and PRNU
 // to √(1/2n) = 0.3 %. The tolerances below are more than ten standard deviations.
 SimulationOptions Small() {
@@ -34,16 +34,14 @@ constexpr double kDarkNoise = 0.05;
 constexpr double kUniformity = 0.10;
 constexpr double kSaturation = 0.03;
 
-using Fault = std::function<void(cv::Mat1w&, const FrameSet&, size_t)>;
+using Fault = std::function<void(cv::Mat1w&, const ImageSet&, size_t)>;
 
 struct Measured {
   Results results;
   PutIn put_in;
 
   double Gain() const { return results.gain_dn_per_e / put_in.gain_dn_per_e - 1.0; }
-  double Efficiency() const {
-    return results.quantum_efficiency / put_in.quantum_efficiency - 1.0;
-  }
+  double Efficiency() const { return results.quantum_efficiency / put_in.quantum_efficiency - 1.0; }
   double DarkNoise() const { return results.dark_noise_e / put_in.dark_noise_e - 1.0; }
   double Dsnu() const { return results.dsnu_e.total / put_in.dsnu_e - 1.0; }
   double Prnu() const { return results.prnu.total / put_in.prnu - 1.0; }
@@ -54,13 +52,13 @@ struct Measured {
 Measured Measure(const SimulationOptions& options, const ImageSensorOptions& told,
                  const ImageSensorOptions& taken, const Fault& fault = {}) {
   const Series series = PlanSeries(options, told);
-  const FrameReader sound = Simulate(options, taken, RandomStream(5));
-  const auto frames = [&](const FrameSet& set, size_t i) {
-    cv::Mat1w frame = sound(set, i);
-    if (fault) fault(frame, set, i);
-    return frame;
+  const ImageReader sound = Simulate(options, taken, RandomStream(5));
+  const auto images = [&](const ImageSet& set, size_t i) {
+    cv::Mat1w image = sound(set, i);
+    if (fault) fault(image, set, i);
+    return image;
   };
-  return {Evaluate(series, frames), PutInBy(options, told)};
+  return {Evaluate(series, images), PutInBy(options, told)};
 }
 
 void ExpectAllFigures(const Measured& m) {
@@ -102,7 +100,7 @@ TEST(EmvaEvaluationTest, DarkCurrentDoublesWithTemperature) {
   const double cool = Measure(Small(), sensor, sensor).results.dark_current_e_s;
   sensor.temperature_c += sensor.dark_current_doubling_k;
   const double warm = Measure(Small(), sensor, sensor).results.dark_current_e_s;
-  // Frame means are known to 26 e/√(2n) = 0.08 e, the slope over 20 ms to about 2 e/s.
+  // Image means are known to 26 e/√(2n) = 0.08 e, the slope over 20 ms to about 2 e/s.
   EXPECT_NEAR(cool, 2000.0, 20.0);
   EXPECT_NEAR(warm / cool, 2.0, 0.02);
 }
@@ -110,17 +108,17 @@ TEST(EmvaEvaluationTest, DarkCurrentDoublesWithTemperature) {
 TEST(EmvaEvaluationTest, WrongShotNoiseIsFoundOut) {
   // A tenth more variance than Poisson's: noise that was added after the fact.
   const double K = PutInBy(Small(), TenBits()).gain_dn_per_e;
-  const auto noisier = [&](cv::Mat1w& frame, const FrameSet& set, size_t i) {
+  const auto noisier = [&](cv::Mat1w& image, const ImageSet& set, size_t i) {
     const double signal = K * 0.524 * set.photons;
-    cv::Mat1f extra(frame.size());
+    cv::Mat1f extra(image.size());
     RandomStream(9)
         .Child("extra", static_cast<uint64_t>(1e9 * set.exposure_s))
         .Child(set.is_dark() ? "dark" : "bright", i)
         .FillNormals({extra.ptr<float>(), extra.total()});
     cv::Mat1f sum;
-    frame.convertTo(sum, CV_32F);
+    image.convertTo(sum, CV_32F);
     sum += extra * std::sqrt(0.1 * K * signal);
-    sum.convertTo(frame, CV_16U);
+    sum.convertTo(image, CV_16U);
   };
   const Measured m = Measure(Small(), TenBits(), TenBits(), noisier);
   EXPECT_GT(m.Gain(), kGain);
@@ -151,8 +149,8 @@ TEST(EmvaEvaluationTest, AWrongQuantumEfficiencyIsFoundOut) {
 
 TEST(EmvaEvaluationTest, WrongQuantisationIsFoundOut) {
   // The three lowest bits are lost: dark noise of 1.6 DN no longer fills a step of 8 DN.
-  const auto coarse = [](cv::Mat1w& frame, const FrameSet&, size_t) {
-    for (uint16_t& dn : frame) dn = static_cast<uint16_t>(dn & ~7);
+  const auto coarse = [](cv::Mat1w& image, const ImageSet&, size_t) {
+    for (uint16_t& dn : image) dn = static_cast<uint16_t>(dn & ~7);
   };
   const Measured m = Measure(Small(), TenBits(), TenBits(), coarse);
   EXPECT_GT(std::abs(m.DarkNoise()), kDarkNoise);
@@ -168,16 +166,16 @@ TEST(EmvaEvaluationTest, WrongPatternsAreFoundOut) {
 }
 
 TEST(EmvaEvaluationTest, EarlySaturationIsFoundOut) {
-  const auto clipped = [](cv::Mat1w& frame, const FrameSet&, size_t) {
-    for (uint16_t& dn : frame) dn = std::min<uint16_t>(dn, 930);
+  const auto clipped = [](cv::Mat1w& image, const ImageSet&, size_t) {
+    for (uint16_t& dn : image) dn = std::min<uint16_t>(dn, 930);
   };
   const Measured m = Measure(Small(), TenBits(), TenBits(), clipped);
   EXPECT_LT(m.Saturation(), -kSaturation);
 }
 
 TEST(EmvaEvaluationTest, AtEightBitsAndGainOneTheStandardsFloorHidesTheDarkNoise) {
-  // 0.24 DN² is the least that the standard lets dark variance be: 25.6 e at 64.6 e per DN. A sensor
-  // of 12 e measures the same as one of 25 e does.
+  // 0.24 DN² is the least that the standard lets dark variance be: 25.6 e at 64.6 e per DN. A
+  // sensor of 12 e measures the same as one of 25 e does.
   ImageSensorOptions quiet;
   quiet.read_noise_e = 12.0;
   const Measured m = Measure(Small(), quiet, quiet);
@@ -187,22 +185,21 @@ TEST(EmvaEvaluationTest, AtEightBitsAndGainOneTheStandardsFloorHidesTheDarkNoise
 
 TEST(EmvaEvaluationTest, ASeriesThatLacksSomethingIsRefusedWithTheReason) {
   const SimulationOptions options = Small();
-  const FrameReader frames = Simulate(options, TenBits(), RandomStream(5));
-  const auto message = [&](Series series, const std::function<bool(const FrameSet&)>& drop) {
+  const ImageReader images = Simulate(options, TenBits(), RandomStream(5));
+  const auto message = [&](Series series, const std::function<bool(const ImageSet&)>& drop) {
     std::erase_if(series.sets, drop);
     try {
-      Evaluate(series, frames);
+      Evaluate(series, images);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
     return std::string("accepted");
   };
   const Series whole = PlanSeries(options, TenBits());
-  EXPECT_THAT(message(whole, [](const FrameSet& s) { return s.is_dark() && !s.is_spatial(); }),
+  EXPECT_THAT(message(whole, [](const ImageSet& s) { return s.is_dark() && !s.is_spatial(); }),
               HasSubstr("no dark pair"));
-  EXPECT_THAT(message(whole, [](const FrameSet& s) { return s.is_spatial(); }),
-              HasSubstr("stack"));
-  EXPECT_THAT(message(whole, [](const FrameSet& s) { return s.exposure_s > 10e-3; }),
+  EXPECT_THAT(message(whole, [](const ImageSet& s) { return s.is_spatial(); }), HasSubstr("stack"));
+  EXPECT_THAT(message(whole, [](const ImageSet& s) { return s.exposure_s > 10e-3; }),
               HasSubstr("does not reach saturation"));
 }
 

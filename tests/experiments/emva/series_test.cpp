@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/emva/simulated_series.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra::emva {
 namespace {
 
-using ::testing::HasSubstr;
 using fenestra::testing::TemporaryFolder;
+using ::testing::HasSubstr;
 
 const SimulationOptions kTiny{.size = {16, 12}, .exposures = 12, .frames = 4};
 
@@ -27,7 +27,7 @@ TEST(EmvaSeriesTest, ADescriptorReadsBackAsItWasWritten) {
   for (size_t i = 0; i < series.sets.size(); ++i) {
     EXPECT_NEAR(back.sets[i].exposure_s, series.sets[i].exposure_s, 1e-12);
     EXPECT_NEAR(back.sets[i].photons, series.sets[i].photons, 1e-5);
-    EXPECT_EQ(back.sets[i].frames, series.sets[i].frames);
+    EXPECT_EQ(back.sets[i].files, series.sets[i].files);
   }
 }
 
@@ -37,10 +37,10 @@ TEST(EmvaSeriesTest, FramesReadBackAsTheyWereTaken) {
     ImageSensorOptions sensor;
     sensor.output_bits = bits;
     const Series series = PlanSeries(kTiny, sensor);
-    const FrameReader taken = Simulate(kTiny, sensor, RandomStream(1));
+    const ImageReader taken = Simulate(kTiny, sensor, RandomStream(1));
     const auto descriptor = WriteSeries(folder.path(), series, taken);
-    const FrameReader files = FilesBeside(descriptor, series);
-    for (const FrameSet& set : series.sets) {
+    const ImageReader files = FilesBeside(descriptor, series);
+    for (const ImageSet& set : series.sets) {
       EXPECT_EQ(cv::norm(files(set, 1), taken(set, 1), cv::NORM_INF), 0.0);
     }
   }
@@ -78,7 +78,7 @@ TEST(EmvaSeriesTest, FramesThatDoNotFitAreRefusedByName) {
   const Series series = PlanSeries(kTiny, sensor);
   const auto descriptor =
       WriteSeries(folder.path(), series, Simulate(kTiny, sensor, RandomStream(1)));
-  const auto message = [&](const Series& told, const FrameSet& set) {
+  const auto message = [&](const Series& told, const ImageSet& set) {
     try {
       FilesBeside(descriptor, told)(set, 0);
     } catch (const InputError& error) {
@@ -91,10 +91,10 @@ TEST(EmvaSeriesTest, FramesThatDoNotFitAreRefusedByName) {
   EXPECT_THAT(message(larger, series.sets[0]), HasSubstr("16 x 12 px"));
   Series eight = series;
   eight.bits = 8;
-  const FrameSet& brightest = *(series.sets.end() - 4);
+  const ImageSet& brightest = *(series.sets.end() - 4);
   EXPECT_THAT(message(eight, brightest), HasSubstr("too many for 8 bits"));
-  FrameSet missing = series.sets[0];
-  missing.frames[0] = "images/none.png";
+  ImageSet missing = series.sets[0];
+  missing.files[0] = "images/none.png";
   EXPECT_THAT(message(series, missing), HasSubstr("none.png"));
 }
 

@@ -5,8 +5,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <numbers>
 
+#include "core/geometry/pose.h"
 #include "experiments/theory/rgbd_information.h"
 #include "scenes/paper_target.h"
 #include "sim/viewpoint.h"
@@ -14,7 +14,6 @@
 namespace fenestra {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kBorder_m = 0.1;
 
 // A wall of which everything returns dots, and a frame on it.
@@ -130,7 +129,7 @@ TEST(RgbdInformationTest, WhatIsKnownTightensTheBound) {
   const WallBefore black(2.0, 0.05);
   const RgbdObservation seen = black.Observe(1);
   const Eigen::MatrixXd information = black.Information(seen);
-  const auto variance_z = [&](const Knowledge& knowledge) {
+  const auto variance_z = [&](const PriorKnowledge& knowledge) {
     return RgbdBound(information, knowledge).value()(2, 2);
   };
   const double plain = variance_z({});

@@ -84,7 +84,7 @@ Eigen::MatrixXd InformationOf(const StereoCalibration& rig, const ExactFrame& fr
 }
 
 Eigen::Matrix3d BoundOf(const ExactFrame& frame, const PixelNoise& noise,
-                        const Knowledge& knowledge = {}) {
+                        const PriorKnowledge& knowledge = {}) {
   return StereoBound(InformationOf(SmallRig(), frame, noise), knowledge).value();
 }
 

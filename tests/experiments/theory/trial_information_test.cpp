@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/cell_bench.h"
 #include "experiments/study_reader.h"
 #include "experiments/theory/bound_table.h"
@@ -57,11 +57,11 @@ TEST(TrialInformationTest, DetectorsAreBoundByWhatTheyKnow) {
   unsized.options["expected_width_m"] = 0.0;
   const TrialInformation exact{SensorKind::kStereo, {}, {}};
   const TrialInformation told{SensorKind::kStereo, {}, PairMatrix(PairMatrix::Identity())};
-  EXPECT_EQ(KnowledgeOf(sized, exact).size_sigma_m, 0.003);
-  EXPECT_FALSE(KnowledgeOf(unsized, exact).size_sigma_m.has_value());
-  EXPECT_FALSE(KnowledgeOf(plain, exact).size_sigma_m.has_value());
-  EXPECT_FALSE(KnowledgeOf(plain, exact).calibration.has_value());
-  EXPECT_EQ(KnowledgeOf(plain, told).calibration, *told.calibration);
+  EXPECT_EQ(PriorKnowledgeOf(sized, exact).size_sigma_m, 0.003);
+  EXPECT_FALSE(PriorKnowledgeOf(unsized, exact).size_sigma_m.has_value());
+  EXPECT_FALSE(PriorKnowledgeOf(plain, exact).size_sigma_m.has_value());
+  EXPECT_FALSE(PriorKnowledgeOf(plain, exact).calibration.has_value());
+  EXPECT_EQ(PriorKnowledgeOf(plain, told).calibration, *told.calibration);
 }
 
 TEST(TrialInformationTest, OutOfViewAndWithoutATargetThereIsNone) {
@@ -94,7 +94,7 @@ TEST(BoundTableTest, KnowledgeOrdersTheBounds) {
     const auto of = [&](Known known) { return cell.bounds[static_cast<size_t>(known)]; };
     ASSERT_TRUE(of(Known::kGeometry).has_value());
     EXPECT_LT(of(Known::kGeometryAndSize)->all, of(Known::kGeometry)->all);
-    EXPECT_LT(of(Known::kGeometry)->all, of(Known::kAsTold)->all);
+    EXPECT_LT(of(Known::kGeometry)->all, of(Known::kNominal)->all);
     EXPECT_LE(of(Known::kGeometryAndSize)->all, of(Known::kSize)->all);
   }
   EXPECT_GT(cells[1].bounds[1]->depth, cells[0].bounds[1]->depth);

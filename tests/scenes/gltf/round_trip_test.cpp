@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "scenes/facade.h"
 #include "scenes/gltf.h"
 #include "scenes/paper_target.h"

@@ -5,7 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/image_io.h"
+#include "core/io/image_io.h"
 #include "sim/board_session.h"
 
 namespace fenestra {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
-#include "core/random_stream.h"
+#include "core/io/input_error.h"
+#include "core/random/random_stream.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
 
 namespace fenestra {

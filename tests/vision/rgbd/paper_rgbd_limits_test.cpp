@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
 #include "vision/rgbd/paper_rgbd.h"
 

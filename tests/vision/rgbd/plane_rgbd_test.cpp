@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/rgbd/exact_kinect.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
 

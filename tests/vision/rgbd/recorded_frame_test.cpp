@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/image_io.h"
+#include "core/io/image_io.h"
 #include "vision/rgbd/paper_rgbd.h"
 #include "vision/rgbd/plane_rgbd.h"
 

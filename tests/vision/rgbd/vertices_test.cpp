@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "vision/rgbd/convex_hull.h"
 
 namespace fenestra {

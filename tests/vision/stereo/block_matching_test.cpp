@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "tests/vision/stereo/stereo_scene.h"
 #include "vision/stereo/guided_matching.h"
 

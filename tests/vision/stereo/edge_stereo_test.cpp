@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/stereo/exact_bound.h"
 #include "tests/vision/stereo/exact_frame.h"
 #include "tests/vision/stereo/stereo_scene.h"

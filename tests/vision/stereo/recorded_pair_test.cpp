@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/image_io.h"
+#include "core/io/image_io.h"
 #include "vision/stereo/edge_stereo.h"
 #include "vision/stereo/paper_stereo.h"
 

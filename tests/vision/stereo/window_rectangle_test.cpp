@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {
