@@ -30,10 +30,10 @@ std::string DetectorProgram::Talk(const std::string& request, double limit_s) {
     throw DetectorFailure("flood", "it wrote more than the one line of an answer");
   }
   const std::string last = process_.LastError();
-  throw DetectorFailure("died", Told(last.empty() ? end : end + ": " + last));
+  throw DetectorFailure("died", WithoutFolder(last.empty() ? end : end + ": " + last));
 }
 
-std::string DetectorProgram::Told(const std::string& detail) const {
+std::string DetectorProgram::WithoutFolder(const std::string& detail) const {
   std::string told = detail;
   const std::string folder = folder_.path().string();
   for (size_t at = told.find(folder); at != std::string::npos; at = told.find(folder, at)) {
@@ -62,7 +62,7 @@ TimedDetection DetectorProgram::Ask(const Observation& observation,
       running_ = false;
       process_.Stop(0.0);
     }
-    throw DetectorFailure(failure.kind(), Told(failure.what()));
+    throw DetectorFailure(failure.kind(), WithoutFolder(failure.what()));
   }
 }
 

@@ -79,23 +79,23 @@ Fitted FitAll(const StepModel& model, std::vector<EdgeStrip> strips) {
 }  // namespace
 
 SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const SideRequest& asked,
-                      const EdgeTuning& tuning) {
+                      const EdgeNuisance& nuisance) {
   SideRequest request = asked;
-  if (!tuning.is_even) request.far_px = request.reach_px;
+  if (!nuisance.is_even) request.far_px = request.reach_px;
   SideEdges edges;
-  edges.tuning = tuning;
+  edges.nuisance = nuisance;
   EdgeStrips cut = CutStrips(view, frame, request);
   edges.places = cut.places;
   if (cut.strips.empty()) return edges;
   const Middle middle = MiddleOf(view.camera, cut.strips, request.vignetting);
-  const StepModel model(request, tuning, middle.normal);
+  const StepModel model(request, nuisance, middle.normal);
   const Fitted fitted = FitAll(model, std::move(cut.strips));
   if (fitted.fits.empty()) return edges;
-  const Learnt learnt =
-      Learn(model, fitted.strips, fitted.fits,
-            {.excess = fitted.median_square, .falloff = middle.falloff}, request, tuning);
-  if (!learnt.tuning.is_even && request.far_px > request.reach_px) {
-    EdgeTuning uneven = tuning;
+  const NuisanceEstimate estimate = EstimateNuisance(
+      model, fitted.strips, fitted.fits,
+      {.excess = fitted.median_square, .falloff = middle.falloff}, request, nuisance);
+  if (!estimate.nuisance.is_even && request.far_px > request.reach_px) {
+    EdgeNuisance uneven = nuisance;
     uneven.is_even = false;
     return MeasureSide(view, frame, request, uneven);
   }
@@ -104,15 +104,16 @@ SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const
     const EdgeStrip& strip = fitted.strips[i];
     const double scale = fit.mean_square > kOwnExcess * fitted.median_square ? fit.mean_square
                                                                              : fitted.median_square;
-    edges.points.push_back({.side = request.side,
-                            .border = request.border,
-                            .share = strip.share,
-                            .normal = strip.normal,
-                            .pixel = strip.pixel + fit.s0_px * strip.normal,
-                            .sigma_px = std::sqrt(scale * fit.s0_variance),
-                            .common_sigma_px = std::hypot(learnt.common_sigma_px, kModelSigma_px)});
+    edges.points.push_back(
+        {.side = request.side,
+         .border = request.border,
+         .share = strip.share,
+         .normal = strip.normal,
+         .pixel = strip.pixel + fit.s0_px * strip.normal,
+         .sigma_px = std::sqrt(scale * fit.s0_variance),
+         .common_sigma_px = std::hypot(estimate.common_sigma_px, kModelSigma_px)});
   }
-  edges.tuning = learnt.tuning;
+  edges.nuisance = estimate.nuisance;
   return edges;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Shared = BySharedTuning;
-using SharedMatrix = Eigen::Matrix<double, EdgeTuning::kShared, EdgeTuning::kShared>;
+using Shared = BySharedNuisance;
+using SharedMatrix = Eigen::Matrix<double, EdgeNuisance::kShared, EdgeNuisance::kShared>;
 
 constexpr double kLeastVariance = 1.0 / 12.0;  // Variance of rounding to whole grey values.
 constexpr double kLeastExcess = 1e-3;          // Avoids zero for images without noise.
@@ -61,12 +61,12 @@ class SideVariances {
     squares_[value.p > 0.5 ? 1 : 0] += residual * residual;
     counts_[value.p > 0.5 ? 1 : 0] += 1.0;
   }
-  void Put(Brighter brighter, EdgeTuning& tuning) const {
+  void Put(Brighter brighter, EdgeNuisance& nuisance) const {
     if (std::min(counts_[0], counts_[1]) < 20.0) return;
     const double inside = std::max(kLeastVariance, squares_[0] / counts_[0]);
     const double outside = std::max(kLeastVariance, squares_[1] / counts_[1]);
-    tuning.dark_variance = brighter == Brighter::kOutside ? inside : outside;
-    tuning.bright_variance = brighter == Brighter::kOutside ? outside : inside;
+    nuisance.dark_variance = brighter == Brighter::kOutside ? inside : outside;
+    nuisance.bright_variance = brighter == Brighter::kOutside ? outside : inside;
   }
 
  private:
@@ -93,7 +93,7 @@ class Evenness {
 
 // Prior of blur and slopes.
 struct Expected {
-  Shared mean = EdgeTuning{}.shared;
+  Shared mean = EdgeNuisance{}.shared;
   Shared sigma;
 };
 
@@ -149,7 +149,7 @@ class SharedEquations {
     }
     const SharedByShape shared = StepModel::LineariseShared(fit, strip.share);
     const Matrix3d inverse = own.inverse();
-    const Eigen::Matrix<double, 3, EdgeTuning::kShared> own_by_shared =
+    const Eigen::Matrix<double, 3, EdgeNuisance::kShared> own_by_shared =
         inverse * mixed * shared.transpose();
     information_ +=
         shared * (shape - mixed.transpose() * inverse * mixed) * shared.transpose() / excess;
@@ -175,11 +175,11 @@ class SharedEquations {
 
 }  // namespace
 
-Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
-             const std::vector<StepFit>& fits, const SideFacts& facts, const SideRequest& request,
-             const EdgeTuning& tuning) {
+NuisanceEstimate EstimateNuisance(const StepModel& model, const std::vector<EdgeStrip>& strips,
+                                  const std::vector<StepFit>& fits, const SideFacts& facts,
+                                  const SideRequest& request, const EdgeNuisance& nuisance) {
   const double excess = std::max(facts.excess, kLeastExcess);
-  SharedEquations equations(model, tuning.shared,
+  SharedEquations equations(model, nuisance.shared,
                             ExpectedOf(fits, facts.falloff, request.vignetting.black_dn));
   SideVariances variances;
   Evenness evenness(request.reach_px);
@@ -189,21 +189,22 @@ Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
     rise.Add(fits[i], equations.Add(strips[i], fits[i], excess, variances, evenness), excess);
     full |= model.PriorInformation(strips[i])(1, 1) > 0.0;
   }
-  Learnt learnt{.tuning = tuning};
+  NuisanceEstimate estimate{.nuisance = nuisance};
   const Shared change = equations.Step();
   if (change.allFinite()) {
     const double c = kLargestBlurChange_px;
     const double b = kLargestSlope;
     const Shared least{kSmallestBlur_px, -c, -c, -b, -b};
     const Shared most{kLargestBlur_px, c, c, b, b};
-    learnt.tuning.shared += change.cwiseMax(-0.2).cwiseMin(0.2);
-    learnt.tuning.shared = learnt.tuning.shared.cwiseMax(least).cwiseMin(most);
+    estimate.nuisance.shared += change.cwiseMax(-0.2).cwiseMin(0.2);
+    estimate.nuisance.shared = estimate.nuisance.shared.cwiseMax(least).cwiseMin(most);
   }
-  variances.Put(request.brighter, learnt.tuning);
-  learnt.tuning.rise_dn = rise.Value();
-  learnt.tuning.is_even = tuning.is_even && evenness.Holds();
-  learnt.common_sigma_px = std::sqrt(equations.EdgeVariance() + (full ? rise.EdgeVariance() : 0.0));
-  return learnt;
+  variances.Put(request.brighter, estimate.nuisance);
+  estimate.nuisance.rise_dn = rise.Value();
+  estimate.nuisance.is_even = nuisance.is_even && evenness.Holds();
+  estimate.common_sigma_px =
+      std::sqrt(equations.EdgeVariance() + (full ? rise.EdgeVariance() : 0.0));
+  return estimate;
 }
 
 }  // namespace fenestra

@@ -85,14 +85,15 @@ void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, Fram
   const FrameRectangle& frame = fit.adjustment.frame;
   UprightPair edges;
   if (views.size() == 2) edges = FindUprightEdges(views[0], views[1], frame);
-  const std::vector<DepthSight> sights = edges.Sights();
+  const std::vector<DepthMeasurement> measurements = edges.Measurements();
   Setback setback = kUnknown;
-  if (!sights.empty()) {
+  if (!measurements.empty()) {
     const double flush = fit.is_in_one_plane && edges.AreInPlane() ? kFlushIfInOnePlane
                                                                    : edges.ProbablyFlush(kFlush);
-    const FrontBelief belief = BelieveFront(sights, flush);
-    if (belief.flush > kSurelyFlush && !edges.IsBesideOther()) return;
-    setback = belief.flush > kMayBeFlush ? Setback{0.0, belief.root_mean_square_m} : belief.setback;
+    const SetbackPosterior posterior = InferSetback(measurements, flush);
+    if (posterior.flush > kSurelyFlush && !edges.IsBesideOther()) return;
+    setback = posterior.flush > kMayBeFlush ? Setback{0.0, posterior.root_mean_square_m}
+                                            : posterior.setback;
     setback.sigma_m = std::max(LeastSigma(views, frame), setback.sigma_m);
   } else if (edges.AreInPlane() && ShowsNoReveal(views, frame, grey)) {
     if (!edges.IsBesideOther()) return;

@@ -42,7 +42,7 @@ constexpr double kFlatSupport = 0.5;
 constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
 // Reliefs that are less certain than this are left out.
 constexpr double kMostRelief_m = 0.05;
-const FrameKnowledge kFree{
+const FramePrior kFree{
     .size = {}, .outer_relief = {}, .inner_relief = ReliefPrior{.mean_m = -0.05, .sigma_m = 0.1}};
 
 // Width of the border in the image where it is narrowest.
@@ -84,17 +84,16 @@ double SigmaAlongNormal(const FrameFit& fit) {
 
 int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
                          std::vector<EdgePoint>& points) {
-  EdgeTuning& tuning =
-      tunings_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
-  SideEdges edges = MeasureSide(views_[view], frame, request, tuning);
+  EdgeNuisance& nuisance =
+      nuisances_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
+  SideEdges edges = MeasureSide(views_[view], frame, request, nuisance);
   points.insert(points.end(), edges.points.begin(), edges.points.end());
-  tuning = edges.tuning;
+  nuisance = edges.nuisance;
   return edges.places;
 }
 
-std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
-                                           const FrameKnowledge& knowledge, double tolerance_px,
-                                           bool is_last) {
+std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame, const FramePrior& prior,
+                                           double tolerance_px, bool is_last) {
   FrameFit fit;
   fit.points.resize(views_.size());
   PlaceCounts places;
@@ -130,7 +129,7 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
   for (std::vector<EdgePoint>& points : fit.points) {
     for (EdgePoint& point : points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
   }
-  FrameKnowledge all = knowledge;
+  FramePrior all = prior;
   all.planes = settings_.planes;
   auto adjustment = AdjustFrame(views_, fit.points, frame, all);
   if (!adjustment) return std::nullopt;
@@ -139,10 +138,10 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
   return fit;
 }
 
-std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& knowledge,
+std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FramePrior& prior,
                                             std::span<const double> tolerances_px) {
   for (size_t i = 0; i < tolerances_px.size(); ++i) {
-    FrameKnowledge now = knowledge;
+    FramePrior now = prior;
     const bool is_last = i + 1 == tolerances_px.size();
     if (is_last) now.size = settings_.size;
     auto next = Round(fit.adjustment.frame, now, tolerances_px[i], is_last);
@@ -165,7 +164,7 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
   if (border_) {
     if (!HasInnerSides(*fit) || !IsConsistent(*fit)) return std::nullopt;
     // Another plane must not explain them better.
-    FrameKnowledge free = kFree;
+    FramePrior free = kFree;
     free.planes = settings_.planes;
     const auto freed = AdjustFrame(views_, fit->points, fit->adjustment.frame, free);
     if (freed && std::abs(freed->frame.inner_relief_m) >

@@ -36,7 +36,7 @@ SideView Look(const CameraView& view, const FrameRectangle& frame, Side side) {
           .pixel_m = PixelAcross(view, frame, side)};
 }
 
-enum class Sight { kNothing, kNoReveal, kReveal };
+enum class Evidence { kNothing, kNoReveal, kReveal };
 
 // Mean grey value above black at this inset.
 std::optional<double> LightAt(const CameraView& view, FrameRectangle frame, Side side,
@@ -53,11 +53,11 @@ double LogRatio(double bright, double dark, double min_contrast_dn) {
   return std::abs(bright - dark) < min_contrast_dn ? 0.0 : std::log(bright / dark);
 }
 
-Sight LookForReveal(const CameraView& view, const FrameRectangle& frame, Side side,
-                    const RevealGrey& grey) {
+Evidence LookForReveal(const CameraView& view, const FrameRectangle& frame, Side side,
+                       const RevealGrey& grey) {
   const SideView look = Look(view, frame, side);
   if (look.inwards_m <= 0.0 || look.distance_m <= 0.0 || look.pixel_m <= 0.0) {
-    return Sight::kNothing;
+    return Evidence::kNothing;
   }
   const double step_m = 0.5 * look.pixel_m;
   const double most_m =
@@ -69,12 +69,12 @@ Sight LookForReveal(const CameraView& view, const FrameRectangle& frame, Side si
     const auto after = LightAt(view, frame, side, t + clear_m, grey.black_dn);
     if (!before || !after) continue;
     const double darker = LogRatio(*before, *after, grey.min_contrast_dn);
-    if (darker > kDarker) return Sight::kReveal;
+    if (darker > kDarker) return Evidence::kReveal;
     if (darker < -kDarker) break;  // The opening: here the frame ends.
   }
   const bool would_show = look.Inset(kShallowest_m) > kNarrowest_px * look.pixel_m &&
                           t > look.Inset(kShallowest_m) + clear_m;
-  return would_show ? Sight::kNoReveal : Sight::kNothing;
+  return would_show ? Evidence::kNoReveal : Evidence::kNothing;
 }
 
 }  // namespace
@@ -84,9 +84,9 @@ bool ShowsNoReveal(std::span<const CameraView> views, const FrameRectangle& fram
   bool would_show = false;
   for (const CameraView& view : views) {
     for (const Side side : kAllSides) {
-      const Sight sight = LookForReveal(view, frame, side, grey);
-      if (sight == Sight::kReveal) return false;
-      would_show |= sight == Sight::kNoReveal;
+      const Evidence evidence = LookForReveal(view, frame, side, grey);
+      if (evidence == Evidence::kReveal) return false;
+      would_show |= evidence == Evidence::kNoReveal;
     }
   }
   return would_show;

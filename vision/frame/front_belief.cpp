@@ -26,30 +26,33 @@ double Normal(double off_m, double sigma_m) {
   return std::exp(-0.5 * off * off) / (sigma_m * std::sqrt(2.0 * std::numbers::pi));
 }
 
-double LikelihoodOf(const std::vector<DepthSight>& sights, double setback_m, double thickness_m) {
+double LikelihoodOf(const std::vector<DepthMeasurement>& measurements, double setback_m,
+                    double thickness_m) {
   double product = 1.0;
-  for (const DepthSight& sight : sights) {
-    const double off_m = sight.behind_m - setback_m - (sight.is_in_thickness ? thickness_m : 0.0);
-    const double sigma_m =
-        std::hypot(sight.sigma_m, sight.is_in_thickness ? kWithinStep_m : kFrontSigma_m);
+  for (const DepthMeasurement& measurement : measurements) {
+    const double off_m =
+        measurement.behind_m - setback_m - (measurement.is_in_thickness ? thickness_m : 0.0);
+    const double sigma_m = std::hypot(measurement.sigma_m,
+                                      measurement.is_in_thickness ? kWithinStep_m : kFrontSigma_m);
     product *= (1.0 - kOther) * Normal(off_m, sigma_m) + kOther / kOtherRange_m;
   }
   return product;
 }
 
 // Marginalises over the thickness.
-double Likelihood(const std::vector<DepthSight>& sights, double setback_m) {
+double Likelihood(const std::vector<DepthMeasurement>& measurements, double setback_m) {
   double sum = 0.0;
   for (int i = 0; i < kThicknesses; ++i) {
-    sum += LikelihoodOf(sights, setback_m, kThickest_m * (i + 0.5) / kThicknesses);
+    sum += LikelihoodOf(measurements, setback_m, kThickest_m * (i + 0.5) / kThicknesses);
   }
   return sum / kThicknesses;
 }
 
 }  // namespace
 
-FrontBelief BelieveFront(const std::vector<DepthSight>& sights, double prior_flush) {
-  const double flush = prior_flush * Likelihood(sights, 0.0);
+SetbackPosterior InferSetback(const std::vector<DepthMeasurement>& measurements,
+                              double prior_flush) {
+  const double flush = prior_flush * Likelihood(measurements, 0.0);
   double sum = flush;
   double first = 0.0;
   double second = 0.0;
@@ -57,7 +60,7 @@ FrontBelief BelieveFront(const std::vector<DepthSight>& sights, double prior_flu
   const int count = static_cast<int>((kDeepestBelieved_m - nearest_m) / kStep_m);
   for (int i = 0; i < count; ++i) {
     const double setback_m = nearest_m + (i + 0.5) * kStep_m;
-    const double weight = (1.0 - prior_flush) / count * Likelihood(sights, setback_m);
+    const double weight = (1.0 - prior_flush) / count * Likelihood(measurements, setback_m);
     sum += weight;
     first += weight * setback_m;
     second += weight * setback_m * setback_m;

@@ -8,7 +8,7 @@ namespace fenestra {
 
 /// A measured depth, behind a rectangle, of some edge of a frame whose front may be behind that
 /// rectangle.
-struct DepthSight {
+struct DepthMeasurement {
   double behind_m;
   double sigma_m;
   /// Whether it may belong to any edge within the frame's thickness, from the front edge to the
@@ -16,7 +16,7 @@ struct DepthSight {
   bool is_in_thickness;
 };
 
-struct FrontBelief {
+struct SetbackPosterior {
   double flush;     ///< Probability that the front is in the rectangle's plane.
   Setback setback;  ///< Mean and standard deviation over both cases.
   double root_mean_square_m;
@@ -28,6 +28,7 @@ struct FrontBelief {
 /// belongs to the front or to an edge within the frame's thickness, at an unknown depth up to 12 cm
 /// behind the front that is common to all of them; one measurement in twenty belongs to something
 /// else.
-FrontBelief BelieveFront(const std::vector<DepthSight>& sights, double prior_flush);
+SetbackPosterior InferSetback(const std::vector<DepthMeasurement>& measurements,
+                              double prior_flush);
 
 }  // namespace fenestra

@@ -20,7 +20,7 @@ constexpr int kHalfWindow = 4;  // Half of the block around an edge that is matc
 constexpr int kAlone = kHalfWindow + kHalfStep;
 constexpr double kLeastRise_dn = 1.0;
 constexpr double kLeastSigmas = 5.0;
-constexpr double kAlike = 0.9;
+constexpr double kLeastCorrelation = 0.9;
 // Error of blur, rounding and interpolation, visible where there is little noise.
 constexpr double kModel_px = 0.02;
 // The corresponding error if another edge is near, possibly at another depth.
@@ -84,7 +84,7 @@ bool IsCrowded(const SideProfile& profile, int i, int direction) {
 }
 
 // Correlation of two blocks; 1 if they differ by a constant.
-double Likeness(const SideProfile& a, int i, const SideProfile& b, int j) {
+double Correlation(const SideProfile& a, int i, const SideProfile& b, int j) {
   double mean_a = 0.0;
   double mean_b = 0.0;
   for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
@@ -104,21 +104,21 @@ double Likeness(const SideProfile& a, int i, const SideProfile& b, int j) {
 
 // Finds the place in `b`, from `low` to `high`, that best matches place i of `a`, refined by a
 // parabola.
-std::optional<double> MostAlike(const SideProfile& a, int i, const SideProfile& b, int low,
+std::optional<double> BestMatch(const SideProfile& a, int i, const SideProfile& b, int low,
                                 int high) {
   low = std::max(low, kHalfWindow + 1);
   high = std::min(high, b.size() - kHalfWindow - 2);
-  double best = kAlike;
+  double best = kLeastCorrelation;
   std::optional<int> where;
   for (int j = low; j <= high; ++j) {
-    const double likeness = Likeness(a, i, b, j);
-    if (likeness <= best) continue;
-    best = likeness;
+    const double correlation = Correlation(a, i, b, j);
+    if (correlation <= best) continue;
+    best = correlation;
     where = j;
   }
   if (!where || *where == low || *where == high) return std::nullopt;
-  const double before = Likeness(a, i, b, *where - 1);
-  const double after = Likeness(a, i, b, *where + 1);
+  const double before = Correlation(a, i, b, *where - 1);
+  const double after = Correlation(a, i, b, *where + 1);
   return *where + 0.5 * (before - after) / std::min(-1e-12, before - 2.0 * best + after);
 }
 
@@ -154,7 +154,7 @@ std::vector<ParallaxEdge> FindParallaxEdges(const CameraView& first, const Camer
       return (SeenBySecond(eye, other, t0, behind_m) - grid.first_m) / grid.step_m;
     };
     const auto [low, high] = std::minmax({index(kNearestEdge_m), index(kDeepestEdge_m)});
-    const auto found = MostAlike(a, i, b, static_cast<int>(std::floor(low)) - 1,
+    const auto found = BestMatch(a, i, b, static_cast<int>(std::floor(low)) - 1,
                                  static_cast<int>(std::ceil(high)) + 1);
     if (!found) continue;
     const Place place = PlaceOf(eye, other, t0, grid.InsetAt(*found));

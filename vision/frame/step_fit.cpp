@@ -27,9 +27,9 @@ double Sign(const SideRequest& request) {
 
 }  // namespace
 
-StepModel::StepModel(const SideRequest& request, const EdgeTuning& tuning,
+StepModel::StepModel(const SideRequest& request, const EdgeNuisance& nuisance,
                      const Eigen::Vector2d& normal)
-    : request_(request), tuning_(tuning), step_(tuning.blur_px(), normal) {}
+    : request_(request), nuisance_(nuisance), step_(nuisance.blur_px(), normal) {}
 
 StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixel) const {
   const double x = pixel.s_px - fit.s0_px;
@@ -39,13 +39,14 @@ StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixe
   value.p = at.p;
   value.by_shape = {at.by_sigma, at.ramp, x - at.ramp};  // Since R(x) - R(-x) = x.
   const double shape =
-      at.p + (tuning_.blur_change_px() * tau + tuning_.blur_bend_px() * Bend(tau)) * at.by_sigma +
-      tuning_.slope_outside() * at.ramp + tuning_.slope_inside() * (x - at.ramp);
+      at.p +
+      (nuisance_.blur_change_px() * tau + nuisance_.blur_bend_px() * Bend(tau)) * at.by_sigma +
+      nuisance_.slope_outside() * at.ramp + nuisance_.slope_inside() * (x - at.ramp);
   value.grey_dn = fit.base_dn + fit.rise_dn * shape;
   value.by_own = {1.0, shape, -fit.rise_dn * at.by_s};
   const double bright_share = request_.brighter == Brighter::kOutside ? at.p : 1.0 - at.p;
-  value.weight = 1.0 / (tuning_.dark_variance +
-                        bright_share * (tuning_.bright_variance - tuning_.dark_variance));
+  value.weight = 1.0 / (nuisance_.dark_variance +
+                        bright_share * (nuisance_.bright_variance - nuisance_.dark_variance));
   value.counts = pixel.grey_dn < kFullScale_dn || value.grey_dn < kFullScale_dn;
   return value;
 }
@@ -79,10 +80,10 @@ std::optional<StepFit> StepModel::Start(const EdgeStrip& strip) const {
 
 Matrix3d StepModel::PriorInformation(const EdgeStrip& strip) const {
   Matrix3d information = Matrix3d::Zero();
-  if (tuning_.rise_dn == 0.0) return information;
+  if (nuisance_.rise_dn == 0.0) return information;
   const bool full = std::any_of(strip.pixels.begin(), strip.pixels.end(),
                                 [](const StripPixel& p) { return p.grey_dn >= kFullScale_dn; });
-  if (full) information(1, 1) = 1.0 / std::pow(kRiseSpread * tuning_.rise_dn, 2);
+  if (full) information(1, 1) = 1.0 / std::pow(kRiseSpread * nuisance_.rise_dn, 2);
   return information;
 }
 
@@ -93,7 +94,7 @@ std::optional<StepFit> StepModel::Fit(const EdgeStrip& strip) const {
   const Matrix3d prior = PriorInformation(strip);
   for (int i = 0; i < kIterations; ++i) {
     Matrix3d normal = prior;
-    Vector3d gradient = prior * Vector3d(0.0, tuning_.rise_dn - fit->rise_dn, 0.0);
+    Vector3d gradient = prior * Vector3d(0.0, nuisance_.rise_dn - fit->rise_dn, 0.0);
     double square = 0.0;
     int count = 0;
     for (const StripPixel& pixel : strip.pixels) {

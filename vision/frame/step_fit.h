@@ -33,15 +33,16 @@ struct StepValue {
   double weight;
   bool counts;
 };
-using BySharedTuning = Eigen::Matrix<double, EdgeTuning::kShared, 1>;
-using SharedByShape = Eigen::Matrix<double, EdgeTuning::kShared, 3>;
+using BySharedNuisance = Eigen::Matrix<double, EdgeNuisance::kShared, 1>;
+using SharedByShape = Eigen::Matrix<double, EdgeNuisance::kShared, 3>;
 
 /// Relative standard deviation of the steps along one side.
 inline constexpr double kRiseSpread = 0.03;
 
 class StepModel {
  public:
-  StepModel(const SideRequest& request, const EdgeTuning& tuning, const Eigen::Vector2d& normal);
+  StepModel(const SideRequest& request, const EdgeNuisance& nuisance,
+            const Eigen::Vector2d& normal);
 
   StepValue At(const StepFit& fit, double share, const StripPixel& pixel) const;
   /// Derivatives of a pixel's grey value with respect to the parameters that all strips of the side
@@ -56,7 +57,7 @@ class StepModel {
   std::optional<StepFit> Start(const EdgeStrip& strip) const;
 
   SideRequest request_;
-  EdgeTuning tuning_;
+  EdgeNuisance nuisance_;
   BlurredStep step_;
 };
 

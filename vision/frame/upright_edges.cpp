@@ -43,28 +43,29 @@ UprightEdges EdgesOf(const CameraView& first, const CameraView& second, const Fr
   return edges;
 }
 
-void AddSights(const UprightEdges& edges, bool in_plane, std::vector<DepthSight>& sights) {
+void AddMeasurements(const UprightEdges& edges, bool in_plane,
+                     std::vector<DepthMeasurement>& measurements) {
   const double from_m = in_plane ? edges.own->behind_m : 0.0;
   const double from_sigma_m = in_plane ? edges.own->sigma_m : 0.0;
   for (const ParallaxEdge& edge : edges.within) {
-    sights.push_back({.behind_m = edge.behind_m - from_m,
-                      .sigma_m = std::hypot(edge.sigma_m, edge.crowding_m, from_sigma_m),
-                      .is_in_thickness = edge.rise_dn > 0.0 && !edge.is_looked_across});
+    measurements.push_back({.behind_m = edge.behind_m - from_m,
+                            .sigma_m = std::hypot(edge.sigma_m, edge.crowding_m, from_sigma_m),
+                            .is_in_thickness = edge.rise_dn > 0.0 && !edge.is_looked_across});
   }
 }
 
 // The frame's own edge on the side that is not looked across, if its depth differs significantly
 // from that of the wall's edge on the other side.
-std::optional<DepthSight> FarSide(const UprightPair& pair) {
+std::optional<DepthMeasurement> FarSide(const UprightPair& pair) {
   if (!pair.AreFarAndNear()) return std::nullopt;
   const bool left_is_near = pair.left.own->is_looked_across;
   const ParallaxEdge& near = left_is_near ? *pair.left.own : *pair.right.own;
   const ParallaxEdge& far = left_is_near ? *pair.right.own : *pair.left.own;
   const double least_m = kApart_m + kInPlaneSigmas * std::hypot(far.sigma_m, near.sigma_m);
   if (far.behind_m - near.behind_m < least_m) return std::nullopt;
-  return DepthSight{.behind_m = far.behind_m,
-                    .sigma_m = std::hypot(far.sigma_m, far.crowding_m),
-                    .is_in_thickness = false};
+  return DepthMeasurement{.behind_m = far.behind_m,
+                          .sigma_m = std::hypot(far.sigma_m, far.crowding_m),
+                          .is_in_thickness = false};
 }
 
 }  // namespace
@@ -81,13 +82,13 @@ bool UprightPair::IsBesideOther() const {
   return (left.own && left.own->is_crowded_outside) || (right.own && right.own->is_crowded_outside);
 }
 
-std::vector<DepthSight> UprightPair::Sights() const {
+std::vector<DepthMeasurement> UprightPair::Measurements() const {
   const bool in_plane = AreInPlane();
-  std::vector<DepthSight> sights;
-  AddSights(left, in_plane, sights);
-  AddSights(right, in_plane, sights);
-  if (const auto far = in_plane ? std::nullopt : FarSide(*this)) sights.push_back(*far);
-  return sights;
+  std::vector<DepthMeasurement> measurements;
+  AddMeasurements(left, in_plane, measurements);
+  AddMeasurements(right, in_plane, measurements);
+  if (const auto far = in_plane ? std::nullopt : FarSide(*this)) measurements.push_back(*far);
+  return measurements;
 }
 
 double UprightPair::ProbablyFlush(double before) const {
