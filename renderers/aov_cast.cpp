@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/io/input_error.h"
-#include "renderers/pane_kernels.h"
+#include "renderers/tracing/pane_kernels.h"
 
 namespace fenestra {
 namespace {

@@ -2,10 +2,10 @@
 
 #include "core/io/input_error.h"
 #include "core/system/check.h"
-#include "vision/rgbd/paper_rgbd.h"
-#include "vision/rgbd/plane_rgbd.h"
-#include "vision/stereo/edge_stereo.h"
-#include "vision/stereo/paper_stereo.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
+#include "vision/rgbd/plane/plane_rgbd.h"
+#include "vision/stereo/edge/edge_stereo.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 namespace fenestra {
 namespace {

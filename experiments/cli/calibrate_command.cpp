@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "core/io/input_error.h"
-#include "experiments/board_pictures.h"
-#include "experiments/calibration_report.h"
 #include "experiments/cli/commands.h"
+#include "experiments/rig_calibration/board_pictures.h"
+#include "experiments/rig_calibration/calibration_report.h"
 
 namespace fenestra::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/trial_files.h"
+#include "experiments/trial_files/trial_files.h"
 
 namespace fenestra::cli {
 namespace {

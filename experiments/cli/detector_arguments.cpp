@@ -6,7 +6,7 @@
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/detector_choice_reader.h"
+#include "experiments/study_file/detector_reader.h"
 
 namespace fenestra::cli {
 namespace {

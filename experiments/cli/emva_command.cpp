@@ -9,8 +9,8 @@
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/emva/report.h"
-#include "experiments/factors.h"
-#include "sim/spectral_response.h"
+#include "experiments/study/factors.h"
+#include "sim/camera/spectral_response.h"
 
 namespace fenestra::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "core/system/freed_memory.h"
 #include "core/system/program.h"
 #include "experiments/cli/commands.h"
-#include "experiments/library_versions.h"
+#include "experiments/run/library_versions.h"
 
 namespace fenestra::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/progress.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -11,8 +11,8 @@
 #include "core/system/shell_quoting.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"
-#include "experiments/slurm_scripts.h"
-#include "experiments/study_catalogue.h"
+#include "experiments/run/slurm_scripts.h"
+#include "experiments/study_file/study_catalogue.h"
 
 namespace fenestra::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/random/random_stream.h"
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/random/random_stream.h"
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "core/io/input_error.h"
-#include "experiments/result_files.h"
+#include "experiments/run/result_files.h"
 
 // A libFuzzer target: whatever a result folder's files hold, they are read and reported, recovered,
 // or refused with an InputError. Bytes that begin as a journal of SQLite's are that of the sound

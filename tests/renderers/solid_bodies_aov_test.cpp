@@ -7,8 +7,8 @@
 
 #include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
-#include "renderers/traced_scene.h"
-#include "scenes/solid_lattice.h"
+#include "renderers/tracing/traced_scene.h"
+#include "scenes/mesh/solid_lattice.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

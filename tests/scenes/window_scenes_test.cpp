@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "core/io/input_error.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {

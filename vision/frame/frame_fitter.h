@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/detection/detection.h"
-#include "vision/frame/frame_border.h"
-#include "vision/frame/frame_fit.h"
-#include "vision/frame/frame_knowledge.h"
+#include "vision/frame/adjustment/frame_fit.h"
+#include "vision/frame/measurement/frame_border.h"
+#include "vision/frame/model/frame_knowledge.h"
 
 namespace fenestra {
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/detection/detection.h"
-#include "vision/frame/darkness.h"
-#include "vision/frame/frame_fit.h"
+#include "vision/frame/adjustment/frame_fit.h"
+#include "vision/frame/detection/darkness.h"
 
 namespace fenestra {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/io/parameter_table.h"
-#include "vision/frame/frame_limits.h"
+#include "vision/frame/model/frame_limits.h"
 
 namespace fenestra {
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/random/random_stream.h"
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 namespace {

@@ -4,9 +4,9 @@
 #include <numbers>
 
 #include "core/io/input_error.h"
-#include "scenes/facade.h"
-#include "scenes/gltf.h"
-#include "scenes/paper_target.h"
+#include "scenes/facade/facade.h"
+#include "scenes/gltf/gltf.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

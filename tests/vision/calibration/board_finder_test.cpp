@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/io/image_io.h"
-#include "sim/board_session.h"
+#include "sim/stereo/board_session.h"
 
 namespace fenestra {
 namespace {
