@@ -8,6 +8,7 @@ namespace fenestra {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
 constexpr double kSmallestTolerance = 0.01;  // Share of the perimeter.
 constexpr double kLargestTolerance = 0.10;
@@ -82,6 +83,10 @@ Line FitSide(const std::vector<cv::Point>& contour, const Vector2d& p, const Vec
   return {Vector2d(fit[2], fit[3]), direction.dot(along) < 0.0 ? -direction : direction};
 }
 
+double RelativeDifference(double a, double b) {
+  return std::abs(a - b) / (0.5 * (a + b));
+}
+
 }  // namespace
 
 double Cross(const Vector2d& a, const Vector2d& b) {
@@ -130,6 +135,22 @@ double Area(const Quadrilateral& q) {
 
 Vector2d At(const Quadrilateral& q, double s, double t) {
   return (1.0 - t) * ((1.0 - s) * q[0] + s * q[1]) + t * ((1.0 - s) * q[3] + s * q[2]);
+}
+
+WindowShape MeasureShape(const std::array<Vector3d, 4>& p_CV) {
+  std::array<Vector3d, 4> side;
+  for (size_t i = 0; i < 4; ++i) side[i] = p_CV[(i + 1) % 4] - p_CV[i];
+  WindowShape shape;
+  shape.width_m = 0.5 * (side[0].norm() + side[2].norm());
+  shape.height_m = 0.5 * (side[1].norm() + side[3].norm());
+  shape.taper = std::max(RelativeDifference(side[0].norm(), side[2].norm()),
+                         RelativeDifference(side[1].norm(), side[3].norm()));
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector3d& next = side[(i + 1) % 4];
+    const double sine = std::abs(side[i].normalized().dot(next.normalized()));
+    shape.skew_rad = std::max(shape.skew_rad, std::asin(std::min(1.0, sine)));
+  }
+  return shape;
 }
 
 }  // namespace fenestra

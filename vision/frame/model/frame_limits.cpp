@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/frame/model/window_shape.h"
+#include "vision/frame/detection/quadrilateral.h"
 
 namespace fenestra {
 namespace {

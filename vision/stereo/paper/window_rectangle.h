@@ -5,7 +5,6 @@
 
 #include "core/detection/detection.h"
 #include "vision/frame/detection/quadrilateral.h"
-#include "vision/frame/model/window_shape.h"
 #include "vision/stereo/paper/disparity_plane.h"
 
 namespace fenestra {
