@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/frame/adjustment/frame_support.h"
+#include "vision/frame/adjustment/frame_fit.h"
 #include "vision/frame/measurement/edge_points.h"
 #include "vision/frame/setback/settle_depth.h"
 
