@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "vision/frame/setback/front_belief.h"
+#include "vision/frame/setback/frame_setback.h"
 #include "vision/frame/setback/upright_edges.h"
 
 namespace fenestra {

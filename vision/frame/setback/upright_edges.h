@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/setback/front_belief.h"
+#include "vision/frame/setback/frame_setback.h"
 #include "vision/frame/setback/parallax_edges.h"
 
 namespace fenestra {
