@@ -4,8 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/rgbd/observation_check.h"
-#include "vision/rgbd/undistortion.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 namespace {

@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "vision/rgbd/depth_picture.h"
 #include "vision/rgbd/paper/crossing_covariance.h"
 #include "vision/rgbd/paper/frame_vertices.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 #include "vision/rgbd/paper/opening.h"
 #include "vision/rgbd/paper/paper_pictures.h"
 #include "vision/rgbd/paper/vertices.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 namespace {
