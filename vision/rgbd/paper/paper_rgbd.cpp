@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "vision/rgbd/paper/crossing_covariance.h"
+#include "vision/rgbd/paper/diagonals.h"
 #include "vision/rgbd/paper/frame_vertices.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 #include "vision/rgbd/paper/opening.h"
