@@ -11,7 +11,6 @@
 #include "vision/rgbd/paper/narf_key_points.h"
 #include "vision/rgbd/paper/opening.h"
 #include "vision/rgbd/paper/paper_pictures.h"
-#include "vision/rgbd/paper/vertices.h"
 #include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
