@@ -12,7 +12,6 @@
 #include "vision/frame/frame_score.h"
 #include "vision/rgbd/plane/frame_paint.h"
 #include "vision/rgbd/plane/frame_planes.h"
-#include "vision/rgbd/plane/hidden_sides.h"
 #include "vision/rgbd/plane/linear_grey.h"
 #include "vision/rgbd/plane/plane_pictures.h"
 #include "vision/rgbd/rgbd_images.h"

@@ -1,7 +1,7 @@
 #include "vision/rgbd/plane/plane_seed.h"
 
 #include "vision/rgbd/plane/depth_around_frame.h"
-#include "vision/rgbd/plane/hidden_sides.h"
+#include "vision/rgbd/plane/frame_planes.h"
 
 namespace fenestra {
 namespace {
