@@ -6,7 +6,7 @@
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
-#include "vision/stereo/rectified_pictures.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 namespace {

@@ -13,7 +13,7 @@
 #include "vision/stereo/paper/guided_matching.h"
 #include "vision/stereo/paper/stage_pictures.h"
 #include "vision/stereo/paper/window_rectangle.h"
-#include "vision/stereo/rectified_pictures.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 namespace {
