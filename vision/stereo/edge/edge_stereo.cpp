@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
@@ -10,6 +11,9 @@
 
 namespace fenestra {
 namespace {
+
+using Options = EdgeStereoOptions;
+using Table = ParameterTable<Options>;
 
 // Least contrast of the inner sides relative to the outer ones. There is little contrast between
 // frame and opening in front of a dark room, but the mean is over the whole length of the sides.
@@ -26,6 +30,28 @@ const StereoObservation& StereoPart(const Observation& observation) {
 }
 
 }  // namespace
+
+const Table& EdgeStereoParameters() {
+  static const Table table = [] {
+    Table made;
+    made.Number(
+        "rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
+        "Zoom of rectification: 0 keeps only what both sensors saw, 1 all that either saw.");
+    made.Adopt<FrameSearchOptions>(FrameSearchParameters(), FENESTRA_FIELD(search));
+    made.Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "Grey value without light.");
+    made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
+    return made;
+  }();
+  return table;
+}
+
+void Validate(const Options& options) {
+  Faults faults("edge-stereo");
+  faults.Add(EdgeStereoParameters().Objections(options));
+  faults.Add(FaultsOf(options.search));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
+}
 
 EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                                        const EdgeStereoOptions& options)
