@@ -9,7 +9,6 @@
 #include "core/io/input_error.h"
 #include "vision/frame/detection/darkness.h"
 #include "vision/stereo/paper/closed_contour.h"
-#include "vision/stereo/paper/depth_image.h"
 #include "vision/stereo/paper/guided_matching.h"
 #include "vision/stereo/paper/stage_pictures.h"
 #include "vision/stereo/paper/window_rectangle.h"
