@@ -6,7 +6,7 @@
 #include "vision/stereo/paper/closed_contour.h"
 #include "vision/stereo/paper/frame_hypothesis.h"
 #include "vision/stereo/paper/paper_stereo_options.h"
-#include "vision/stereo/paper/window_covariance.h"
+#include "vision/stereo/paper/window_rectangle.h"
 #include "vision/stereo/rectification.h"
 
 namespace fenestra {
