@@ -25,7 +25,7 @@ StatedCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
     const StereoCalibrationResult result = CalibrateWithBoards(noisy, session, stream);
     return StatedCalibration{result.calibration, result.covariance};
   };
-  return cache.Get(ContentOf(noisy, session, stream), calibrate);
+  return cache.Get(ContentOf(noisy, choice, stream), calibrate);
 }
 
 }  // namespace

@@ -107,9 +107,7 @@ class PreparedBoards {
   explicit PreparedBoards(const StereoRig& rig) : rig_(rig.WithNoise()), cache_(folder_.path()) {}
 
   const CalibrationCache& For(const CalibrationChoice& choice, const RandomStream& stream) {
-    BoardSessionOptions session;
-    session.views = choice.boards;
-    cache_.Get(ContentOf(rig_, session, stream.Child("boards")), [] {
+    cache_.Get(ContentOf(rig_, choice, stream.Child("boards")), [] {
       return StatedCalibration{Known(), PairMatrix::Zero()};
     });
     return cache_;
