@@ -32,4 +32,11 @@ class InputError : public std::runtime_error {
   std::vector<InputFault> faults_;
 };
 
+/// The options, once their Validate has accepted them: for members that are initialised from them.
+template <typename Options>
+const Options& Validated(const Options& options) {
+  Validate(options);
+  return options;
+}
+
 }  // namespace fenestra

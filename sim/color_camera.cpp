@@ -66,7 +66,7 @@ void Validate(const ColorCameraOptions& o) {
 
 ColorCamera::ColorCamera(const ColorCameraOptions& options, const Pose& X_BK,
                          const RigMotion& motion, int edge_samples_per_pixel)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       X_BK_(X_BK),
       shutter_{.motion = motion, .readout_s = options.readout_s},
       edge_samples_per_pixel_(edge_samples_per_pixel),

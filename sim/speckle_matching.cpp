@@ -151,7 +151,7 @@ void Validate(const SpeckleMatchingOptions& o) {
 SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
                                const InfraredOptions& infrared, const GatheredPattern& pattern,
                                cv::Size image, double least_px, double most_px)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       // Rounding to whole numbers is noise too.
       dark_variance_(infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0),
       shot_noise_dn_(infrared.shot_noise_dn),

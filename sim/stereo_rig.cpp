@@ -144,7 +144,7 @@ void StereoRig::Camera::SetSensor(const ImageSensorOptions& options) {
 }
 
 StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       cameras_{.left = BuiltCamera(options, rig.Child("left")),
                .right = BuiltCamera(options, rig.Child("right")),
                .X_RL = {}},

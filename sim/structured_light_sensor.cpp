@@ -93,7 +93,7 @@ void Validate(const StructuredLightOptions& o) {
 }
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
-    : options_((Validate(options), options)),
+    : options_(Validated(options)),
       nominal_(CalibrationOf(options)),
       depth_model_(MakeDepthModel(options, InfraredCamera(options))),
       color_(options.color, DepthToColor(options).inverse(), options.motion,

@@ -33,25 +33,25 @@ void Report(const ReportArguments& arguments) {
 
 }  // namespace
 
-void AddReportCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("report", "Makes tables and files from a stored result again");
-  command->footer(
+void AddReportCommand(Command program) {
+  Command command =
+      program.AddCommand("report", "Makes tables and files from a stored result again");
+  command.Footer(
       "Example:\n"
       "  fenestra report results/paper --out /tmp/paper --pictures\n"
       "Works on results.sqlite alone, also while a run is writing it.");
   const auto arguments = std::make_shared<ReportArguments>();
-  command->add_option("RESULTS", arguments->results, "Results folder or its results.sqlite")
-      ->required();
-  command->add_option("--out", arguments->out, "Folder for the files; default: where the rows are");
-  command->add_flag("--pictures", arguments->pictures,
-                    "Runs the first trial of each cell again for its pictures");
-  command->add_option("--jobs", arguments->jobs, "Trials at the same time, for the pictures")
-      ->check(CLI::Range(1, 1024));
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] {
+  command.AddOption("RESULTS", arguments->results, "Results folder or its results.sqlite")
+      .Required();
+  command.AddOption("--out", arguments->out, "Folder for the files; default: where the rows are");
+  command.AddFlag("--pictures", arguments->pictures,
+                  "Runs the first trial of each cell again for its pictures");
+  command.AddOption("--jobs", arguments->jobs, "Trials at the same time, for the pictures")
+      .Within(1, 1024);
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] {
     Report(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

@@ -8,11 +8,6 @@ namespace {
 using Options = PlaneRgbdOptions;
 using Table = ParameterTable<Options>;
 
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
-
 void AddDepth(Table& table) {
   table
       .Number("depth_noise_per_m", FENESTRA_FIELD(depth_noise_per_m), {1e-9, 1.0},
@@ -41,8 +36,6 @@ const Table& PlaneRgbdParameters() {
   }();
   return table;
 }
-
-#undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
   Faults faults("plane-rgbd");

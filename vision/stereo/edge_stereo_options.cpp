@@ -8,11 +8,6 @@ namespace {
 using Options = EdgeStereoOptions;
 using Table = ParameterTable<Options>;
 
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
-
 }  // namespace
 
 const Table& EdgeStereoParameters() {
@@ -27,8 +22,6 @@ const Table& EdgeStereoParameters() {
   }();
   return table;
 }
-
-#undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
   Faults faults("edge-stereo");

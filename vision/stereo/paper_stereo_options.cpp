@@ -9,11 +9,6 @@ namespace {
 using Options = PaperStereoOptions;
 using Table = ParameterTable<Options>;
 
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
-
 void AddMatching(Table& table) {
   table
       .Number("rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
@@ -98,8 +93,6 @@ const Table& PaperStereoParameters() {
   }();
   return table;
 }
-
-#undef FENESTRA_FIELD
 
 void Validate(const Options& options) {
   Faults faults("paper-stereo");
