@@ -21,11 +21,12 @@ class DepthBench {
   DepthBench(const StructuredLightOptions& options, double reflectance_830nm, const Plate& plate,
              const RandomStream& stream);
 
-  /// `wall_lx`: of daylight on the wall; `frame`: tells noise and laser speckle from others'.
+  /// `wall_lx`: illuminance of the wall by daylight; `image`: images of other numbers have other
+  /// noise and laser speckle.
   DepthImage See(const Viewpoint& viewpoint, double wall_lx = kIndoors_lx,
-                 uint64_t frame = 0) const;
+                 uint64_t image = 0) const;
 
-  /// RMS of a pixel's depth over frames around its mean, over pixels that always have a return [m].
+  /// RMS of a pixel's depth over images around its mean, over pixels that always have a return [m].
   double TemporalNoise(const Viewpoint& viewpoint) const;
 
   /// A wall gets six tenths of the 300 lx that the sky gives on level ground.
