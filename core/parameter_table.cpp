@@ -79,4 +79,13 @@ std::optional<ParameterValue> ParameterInfo::Read(YamlReader& reader,
   return value;
 }
 
+double RoundTo12Digits(double value) {
+  return std::stod(fmt::format("{:.11e}", value));
+}
+
+ParameterValue WrittenDefault(const ParameterInfo& parameter) {
+  const double* number = std::get_if<double>(&parameter.default_value);
+  return number != nullptr ? RoundTo12Digits(*number) : parameter.default_value;
+}
+
 }  // namespace fenestra

@@ -206,4 +206,11 @@ class ParameterTable {
   std::vector<Setter> setters_;
 };
 
+/// To 12 significant digits: what remains of 0.1 + 0.2 when it is written as people do.
+double RoundTo12Digits(double value);
+
+/// The default as people would write it: 15 degrees, not the 14.999999999999998 that come back
+/// from radians.
+ParameterValue WrittenDefault(const ParameterInfo& parameter);
+
 }  // namespace fenestra

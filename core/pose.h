@@ -2,8 +2,12 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <numbers>
 
 namespace fenestra {
+
+/// One degree [rad].
+inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A rigid transform X_AB that maps coordinates in frame B to coordinates in frame A:
 ///
@@ -44,5 +48,8 @@ class Pose {
 
 /// The rotation by |rotation_vector| radians about rotation_vector (Rodrigues).
 Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& rotation_vector);
+
+/// [v]×, the matrix with [v]× w = v × w.
+Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v);
 
 }  // namespace fenestra

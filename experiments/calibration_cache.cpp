@@ -9,7 +9,7 @@
 #include "core/atomic_file.h"
 #include "core/calibration_io.h"
 #include "core/input_error.h"
-#include "experiments/versions.h"
+#include "core/program.h"
 
 namespace fenestra {
 namespace {

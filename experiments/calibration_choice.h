@@ -1,10 +1,6 @@
 #pragma once
 
-#include "core/calibration.h"
 #include "core/calibration_board.h"
-#include "core/random_stream.h"
-#include "experiments/calibration_cache.h"
-#include "sim/stereo_rig.h"
 
 namespace fenestra {
 
@@ -31,18 +27,5 @@ struct CalibrationChoice {
   double shake_rotation_rad = 5e-4;
   double shake_translation_m = 1e-4;
 };
-
-/// A rig as it flies, and what detectors are told of it.
-struct CalibratedRig {
-  StereoRig rig;
-  StereoCalibration told;
-  /// How far `told` may be from the truth: see CalibrationLaw. nullopt: it is the truth.
-  std::optional<PairMatrix> law;
-};
-
-/// Calibrates a rig that was just built. A pure function of all but the cache, which only saves
-/// time. Throws InputError if a calibration with boards fails.
-CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
-                         const RandomStream& calibration, const CalibrationCache& cache);
 
 }  // namespace fenestra

@@ -1,5 +1,6 @@
 #include "experiments/cell_bench.h"
 
+#include "experiments/calibrated_rig.h"
 #include "experiments/scoring.h"
 #include "experiments/trial_scene.h"
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/check.h"
 
@@ -115,6 +116,37 @@ CellSummary CellTally::Summary() const {
   summary.timed = static_cast<int>(total_seconds_.size());
   if (!total_seconds_.empty()) summary.median_total_s = SampleQuantile(total_seconds_, 0.5);
   return summary;
+}
+
+void Summariser::Add(const TrialRecord& row) {
+  if (row.cell != cell_) {
+    FENESTRA_CHECK(row.cell > cell_, "rows must come cell by cell");
+    EndCell();
+    cell_ = row.cell;
+  }
+  tallies_[row.detector].Add(row);
+}
+
+std::vector<CellSummary> Summariser::Finish() {
+  EndCell();
+  return std::move(summaries_);
+}
+
+void Summariser::EndCell() {
+  for (const auto& [detector, tally] : tallies_) summaries_.push_back(tally.Summary());
+  tallies_.clear();
+}
+
+std::vector<CellSummary> Summarise(std::span<const TrialRecord> records) {
+  std::vector<const TrialRecord*> rows;
+  rows.reserve(records.size());
+  for (const TrialRecord& record : records) rows.push_back(&record);
+  std::sort(rows.begin(), rows.end(), [](const TrialRecord* a, const TrialRecord* b) {
+    return std::tie(a->cell, a->trial) < std::tie(b->cell, b->trial);
+  });
+  Summariser summariser;
+  for (const TrialRecord* row : rows) summariser.Add(*row);
+  return summariser.Finish();
 }
 
 }  // namespace fenestra

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,5 +37,26 @@ class CellTally {
   std::map<std::string, std::vector<double>> stage_seconds_;
   std::vector<double> total_seconds_;
 };
+
+/// Makes summaries of rows that come one at a time: cell by cell, and in each by trial, as
+/// ResultStore::ForEachRow gives them. Holds the numbers of one cell only.
+class Summariser {
+ public:
+  void Add(const TrialRecord& row);
+  /// One summary per (cell, detector), ordered by cell, then detector.
+  std::vector<CellSummary> Finish();
+
+ private:
+  void EndCell();
+
+  int cell_ = -1;
+  std::map<std::string, CellTally> tallies_;  ///< Of this cell, by detector.
+  std::vector<CellSummary> summaries_;
+};
+
+/// One summary per (cell, detector), ordered by cell, then detector. Does not depend on the order
+/// of the rows, to the last bit. A (cell, trial, detector) that occurs twice fails a check. See
+/// Summariser for rows that are not all in memory.
+std::vector<CellSummary> Summarise(std::span<const TrialRecord> records);
 
 }  // namespace fenestra

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "core/pose.h"
 #include "experiments/depth_bench.h"
 
 namespace fenestra {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTilt = 1.0 * kDegree;
 
 // As many depth pixels as the infra-red image has.

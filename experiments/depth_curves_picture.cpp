@@ -1,14 +1,12 @@
 #include <cmath>
-#include <numbers>
 
+#include "core/pose.h"
 #include "experiments/depth_curves.h"
 #include "experiments/depth_laws.h"
 #include "experiments/plot.h"
 
 namespace fenestra {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 using Points = std::vector<cv::Point2d>;
 

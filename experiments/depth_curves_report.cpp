@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "core/pose.h"
 #include "experiments/depth_bench.h"
 #include "experiments/depth_curves.h"
 #include "experiments/depth_laws.h"
@@ -11,8 +11,6 @@
 
 namespace fenestra {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TextTable TableWith(const std::vector<std::string>& headings) {
   TextTable table;

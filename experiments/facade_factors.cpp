@@ -1,7 +1,6 @@
 #include "experiments/facade_factors.h"
 
-#include <numbers>
-
+#include "core/pose.h"
 #include "scenes/facade_plan.h"
 #include "scenes/wall_texture.h"
 
@@ -10,7 +9,6 @@ namespace {
 
 using Table = ParameterTable<TrialSettings>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const Table::Range kUnit{0.0, 1.0};
 
 // The field of the settings that a factor stands for.

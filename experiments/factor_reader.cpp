@@ -227,13 +227,4 @@ std::optional<std::variant<Levels, Distribution>> ReadFactorSetting(YamlReader& 
   return setting.ReadDistribution(node, node.begin()->first.Scalar());
 }
 
-double RoundTo12Digits(double value) {
-  return std::stod(fmt::format("{:.11e}", value));
-}
-
-ParameterValue WrittenDefault(const ParameterInfo& parameter) {
-  const double* number = std::get_if<double>(&parameter.default_value);
-  return number != nullptr ? RoundTo12Digits(*number) : parameter.default_value;
-}
-
 }  // namespace fenestra

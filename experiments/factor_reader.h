@@ -34,11 +34,4 @@ inline const std::vector<std::string> kDistributionKeys{"uniform", "log_uniform"
 
 inline constexpr double kNegligibleMass = 1e-6;
 
-/// To 12 significant digits: what remains of 0.1 + 0.2 when it is written as people do.
-double RoundTo12Digits(double value);
-
-/// The default as people would write it: 15 degrees, not the 14.999999999999998 that come back
-/// from radians.
-ParameterValue WrittenDefault(const ParameterInfo& parameter);
-
 }  // namespace fenestra

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <numbers>
 
 #include "core/check.h"
+#include "core/pose.h"
 #include "experiments/facade_factors.h"
 
 namespace fenestra {
@@ -13,7 +13,6 @@ namespace {
 
 using Table = ParameterTable<TrialSettings>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilli = 1e-3;
 constexpr double kMicro = 1e-6;
 constexpr double kPercent = 1e-2;

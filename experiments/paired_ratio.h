@@ -54,8 +54,4 @@ struct PairedCells {
 /// occurs; trials in view under both levels. Throws InputError if the factor is not varied.
 std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std::string& factor);
 
-/// A table of all pairs of cells, and for each part, detector and level the pooled ratios.
-std::string PairedRatioTable(std::span<const PairedCells> cells, const std::string& factor,
-                             const RandomStream& stream);
-
 }  // namespace fenestra

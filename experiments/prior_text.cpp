@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "experiments/detector_choice_reader.h"
 #include "vision/window_prior.h"
 
 namespace fenestra {

@@ -7,12 +7,12 @@
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
+#include "experiments/cell_tally.h"
 #include "experiments/prior_text.h"
 #include "experiments/report.h"
 #include "experiments/row_reports.h"
 #include "experiments/run_trials.h"
 #include "experiments/study_reader.h"
-#include "experiments/summariser.h"
 #include "experiments/trial_files.h"
 #include "vision/detector_registry.h"
 

@@ -6,8 +6,9 @@
 #include <map>
 #include <sstream>
 
+#include "core/program.h"
+#include "experiments/library_versions.h"
 #include "experiments/study_writer.h"
-#include "experiments/versions.h"
 #include "vision/plugin_loader.h"
 
 namespace fenestra {

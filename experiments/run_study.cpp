@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "core/input_error.h"
+#include "core/program.h"
 #include "experiments/folder_lock.h"
 #include "experiments/result_files.h"
 #include "experiments/run_identity.h"
@@ -16,7 +17,6 @@
 #include "experiments/trial_files.h"
 #include "experiments/trial_plan.h"
 #include "experiments/trial_writer.h"
-#include "experiments/versions.h"
 
 namespace fenestra {
 namespace {

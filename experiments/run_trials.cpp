@@ -65,12 +65,6 @@ std::vector<TrialKey> AllTrials(std::span<const Cell> cells) {
   return trials;
 }
 
-std::vector<TrialRecord> FinishedTrial::Records() const {
-  std::vector<TrialRecord> records;
-  for (const Attempt& attempt : attempts) records.push_back(attempt.record);
-  return records;
-}
-
 void RunTrials(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
                const RunOptions& options, const std::function<void(const FinishedTrial&)>& finish) {
   FENESTRA_CHECK(options.jobs >= 1, "a run needs at least one job");

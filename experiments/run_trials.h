@@ -7,22 +7,11 @@
 
 #include "experiments/detector_maker.h"
 #include "experiments/trial_bench.h"
-#include "experiments/trial_key.h"
 
 namespace fenestra {
 
 /// All trials, cell by cell.
 std::vector<TrialKey> AllTrials(std::span<const Cell> cells);
-
-/// A trial that every detector of its cell has tried.
-struct FinishedTrial {
-  const TrialBench& bench;
-  const SimulatedTrial& simulated;
-  const std::vector<Attempt>& attempts;
-
-  TrialKey key() const { return {bench.cell().index, simulated.trial.index}; }
-  std::vector<TrialRecord> Records() const;
-};
 
 /// Makes the bench of a cell.
 using BenchMaker = std::function<std::shared_ptr<const TrialBench>(const Study&, const Cell&)>;

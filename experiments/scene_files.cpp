@@ -10,10 +10,11 @@
 #include "core/did_you_mean.h"
 #include "core/image_io.h"
 #include "core/input_error.h"
+#include "core/io/srgb.h"
 #include "experiments/truth_exr.h"
 #include "experiments/truth_json.h"
+#include "renderers/ray_caster.h"
 #include "scenes/tessellation.h"
-#include "sim/srgb.h"
 
 namespace fenestra {
 namespace {

@@ -7,10 +7,12 @@
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
+#include "core/program.h"
+#include "experiments/cell_tally.h"
+#include "experiments/library_versions.h"
 #include "experiments/report.h"
 #include "experiments/scoring.h"
 #include "experiments/store.h"
-#include "experiments/versions.h"
 
 namespace fenestra {
 namespace {

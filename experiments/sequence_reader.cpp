@@ -3,7 +3,8 @@
 #include <map>
 #include <set>
 
-#include "experiments/detector_process_reader.h"
+#include "experiments/detector_choice_reader.h"
+#include "experiments/name_reader.h"
 #include "experiments/record_json.h"
 #include "experiments/sequence.h"
 #include "experiments/study_blocks.h"

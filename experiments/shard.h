@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/trial_key.h"
+#include "experiments/trial_record.h"
 
 namespace fenestra {
 

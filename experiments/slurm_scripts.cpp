@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/shell_quoting.h"
+#include "core/shell_quoting.h"
 
 namespace fenestra {
 namespace {

@@ -29,6 +29,10 @@ Interval ClopperPearson(int successes, int trials, double confidence) {
           .upper = Binomial::find_upper_bound_on_p(trials, successes, one_sided, kMethod)};
 }
 
+Interval OneSidedLimits(int successes, int trials, double confidence) {
+  return ClopperPearson(successes, trials, std::max(1e-9, 1.0 - 2.0 * (1.0 - confidence)));
+}
+
 double SampleQuantile(std::span<const double> values, double p) {
   RequireAtLeast(1, values);
   FENESTRA_CHECK(0.0 < p && p <= 1.0, fmt::format("p = {}", p));

@@ -21,6 +21,11 @@ struct Interval {
 /// Domain: 0 ≤ k = successes ≤ n = trials, 0 < confidence < 1; anything else fails a check.
 Interval ClopperPearson(int successes, int trials, double confidence = 0.95);
 
+/// One-sided confidence limits of a binomial probability, each of them with this confidence: each
+/// end of a two-sided interval of confidence 1 - 2 α is a one-sided limit of confidence 1 - α.
+/// Domain: as ClopperPearson, and confidence ≥ 0.5.
+Interval OneSidedLimits(int successes, int trials, double confidence);
+
 /// The p-quantile of a sample as the left-continuous inverse of its empirical distribution
 /// function, x_(k) with k the smallest whole number such that k/n ≥ p: type 1 of R. J. Hyndman and
 /// Y. Fan, "Sample quantiles in statistical packages", The American Statistician 50, 1996.

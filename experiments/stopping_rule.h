@@ -1,11 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "core/yaml_reader.h"
 namespace fenestra {
 
 /// A figure of a cell whose interval shall become narrow.
@@ -37,11 +34,5 @@ struct StoppingRule {
   /// How often a cell of so many trials at most is looked at.
   int CountLooks(int repetitions) const;
 };
-
-/// Reads `{hit_rate: 0.1, p95_error_mm: 20, first_look: 30}`; faults are noted in the reader.
-std::optional<StoppingRule> ReadStoppingRule(YamlReader& reader, const YAML::Node& node);
-
-/// The keys of a rule: every figure and first_look.
-const std::vector<std::string>& StoppingKeys();
 
 }  // namespace fenestra

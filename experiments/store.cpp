@@ -12,11 +12,44 @@
 #include "core/input_error.h"
 #include "experiments/sqlite_database.h"
 #include "experiments/store_rows.h"
-#include "experiments/store_schema.h"
 
 namespace fenestra {
 namespace fs = std::filesystem;
 namespace {
+
+constexpr char kRunColumns[] = "shard, started_utc, ended_utc, jobs, host, processor, command";
+
+SqliteStatement PrepareInsertRun(SqliteDatabase& database) {
+  return database.Prepare(
+      fmt::format("INSERT INTO runs ({}) VALUES (?, ?, ?, ?, ?, ?, ?)", kRunColumns));
+}
+
+void InsertRun(SqliteStatement& insert, const RunEntry& run) {
+  insert.Reset();
+  insert.Bind(run.shard).Bind(run.started_utc);
+  if (run.ended_utc) {
+    insert.Bind(*run.ended_utc);
+  } else {
+    insert.BindNull();
+  }
+  insert.Bind(int64_t{run.jobs}).Bind(run.host).Bind(run.processor).Bind(run.command).Run();
+}
+
+SqliteStatement PrepareSelectRuns(SqliteDatabase& database) {
+  return database.Prepare(fmt::format("SELECT {} FROM runs ORDER BY run", kRunColumns));
+}
+
+RunEntry ReadRun(SqliteStatement& select) {
+  RunEntry run;
+  run.shard = select.ReadText();
+  run.started_utc = select.ReadText();
+  run.ended_utc = select.ReadOptionalText();
+  run.jobs = static_cast<int>(select.ReadInteger());
+  run.host = select.ReadText();
+  run.processor = select.ReadText();
+  run.command = select.ReadText();
+  return run;
+}
 
 fs::path JournalOf(const fs::path& file) {
   return file.string() + "-journal";

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "experiments/trial_key.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
@@ -36,7 +35,7 @@ struct DetectorTally {
   int64_t hits = 0;
 };
 
-/// The raw rows of one study, in one SQLite file. Tables (see store_schema.h for the columns):
+/// The raw rows of one study, in one SQLite file. Tables (see store_rows.h for the columns):
 ///
 ///     meta(key, value)     StoreMetadata
 ///     runs(...)            one row per RunEntry

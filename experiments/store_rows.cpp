@@ -17,7 +17,6 @@ constexpr char kColumns[] =
     "estimate_corners_m, estimate_covariance_m2, "
     "truth_x_m, truth_y_m, truth_z_m, bound_covariance_m2, stage_times_s";
 constexpr int kColumnCount = 23;
-constexpr char kRunColumns[] = "shard, started_utc, ended_utc, jobs, host, processor, command";
 constexpr char kErrorColumns[] =
     "centroid_error_x_mm, centroid_error_y_mm, centroid_error_z_mm, centroid_error_mm";
 constexpr int kErrorColumnCount = 4;
@@ -157,38 +156,6 @@ TrialRecord ReadRow(SqliteStatement& select) {
   record.bound_C = ReadMatrix(select);
   record.stages = StageTimesFromJson(select.ReadText());
   return record;
-}
-
-SqliteStatement PrepareInsertRun(SqliteDatabase& database) {
-  return database.Prepare(
-      fmt::format("INSERT INTO runs ({}) VALUES (?, ?, ?, ?, ?, ?, ?)", kRunColumns));
-}
-
-void InsertRun(SqliteStatement& insert, const RunEntry& run) {
-  insert.Reset();
-  insert.Bind(run.shard).Bind(run.started_utc);
-  if (run.ended_utc) {
-    insert.Bind(*run.ended_utc);
-  } else {
-    insert.BindNull();
-  }
-  insert.Bind(int64_t{run.jobs}).Bind(run.host).Bind(run.processor).Bind(run.command).Run();
-}
-
-SqliteStatement PrepareSelectRuns(SqliteDatabase& database) {
-  return database.Prepare(fmt::format("SELECT {} FROM runs ORDER BY run", kRunColumns));
-}
-
-RunEntry ReadRun(SqliteStatement& select) {
-  RunEntry run;
-  run.shard = select.ReadText();
-  run.started_utc = select.ReadText();
-  run.ended_utc = select.ReadOptionalText();
-  run.jobs = static_cast<int>(select.ReadInteger());
-  run.host = select.ReadText();
-  run.processor = select.ReadText();
-  run.command = select.ReadText();
-  return run;
 }
 
 }  // namespace fenestra

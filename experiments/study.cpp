@@ -159,4 +159,14 @@ std::vector<std::pair<std::string, Distribution>> DrawnFactors(const Study& stud
   return drawn;
 }
 
+DetectorChoice DefaultChoice(const DetectorInfo& detector) {
+  DetectorChoice choice{
+      .label = detector.name, .name = detector.name, .sensor = detector.sensor, .options = {}};
+  if (detector.isolate) choice.process = DetectorProcess{};
+  for (const ParameterInfo& option : detector.options) {
+    choice.options[option.name] = WrittenDefault(option);
+  }
+  return choice;
+}
+
 }  // namespace fenestra

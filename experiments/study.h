@@ -55,6 +55,9 @@ struct DetectorChoice {
   bool operator==(const DetectorChoice&) const = default;
 };
 
+/// The detector with all its options at their defaults.
+DetectorChoice DefaultChoice(const DetectorInfo& detector);
+
 /// One grid of conditions.
 struct StudyPart {
   std::string name;

@@ -7,6 +7,8 @@
 #include "core/did_you_mean.h"
 #include "experiments/factor_reader.h"
 #include "experiments/factors.h"
+#include "experiments/name_reader.h"
+#include "experiments/rule_reader.h"
 
 namespace fenestra {
 namespace {
@@ -53,18 +55,6 @@ std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node)
 }
 
 }  // namespace
-
-std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node) {
-  static const std::vector<std::string> names{ToString(SensorKind::kStereo),
-                                              ToString(SensorKind::kRgbd)};
-  const auto name = reader.Text(node, "a sensor");
-  if (!name) return std::nullopt;
-  if (*name == names[0]) return SensorKind::kStereo;
-  if (*name == names[1]) return SensorKind::kRgbd;
-  reader.AddFault(node,
-                  fmt::format("unknown sensor '{}'. Known: {}.", *name, fmt::join(names, ", ")));
-  return std::nullopt;
-}
 
 const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
   const auto found =

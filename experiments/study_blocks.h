@@ -34,9 +34,6 @@ struct StudyBlock {
   const GivenFactor* FindFactor(const std::string& name) const;
 };
 
-/// Reads "stereo" or "rgbd".
-std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node);
-
 /// The keys that ReadBlock reads.
 const std::vector<std::string>& BlockKeys();
 

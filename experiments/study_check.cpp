@@ -7,7 +7,6 @@
 #include <set>
 
 #include "core/input_error.h"
-#include "experiments/envelope/requirement_count.h"
 
 namespace fenestra {
 namespace {
@@ -126,9 +125,9 @@ std::vector<std::string> RuleObjections(const StudyPart& part) {
     if (Concerns(GroupOf(rule.over), sensor)) continue;
     objections.push_back(fmt::format("{} has no effect on {}", rule.over, ToString(sensor)));
   }
-  if (!RequirementCount(rule).CanHoldAfter(part.repetitions)) {
+  if (!AllGoodSuffice(rule, part.repetitions)) {
     int enough = part.repetitions;
-    while (!RequirementCount(rule).CanHoldAfter(enough)) enough += 1 + enough / 100;
+    while (!AllGoodSuffice(rule, enough)) enough += 1 + enough / 100;
     objections.push_back(
         fmt::format("{} repetitions cannot show the requirement with {:g} % "
                     "confidence even if all are good; about {} can",

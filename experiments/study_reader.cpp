@@ -7,6 +7,7 @@
 #include <set>
 
 #include "experiments/factor_reader.h"
+#include "experiments/name_reader.h"
 #include "experiments/study_blocks.h"
 #include "experiments/study_check.h"
 

@@ -8,8 +8,8 @@
 #include "core/check.h"
 #include "experiments/design/design_reader.h"
 #include "experiments/detector_choice_reader.h"
-#include "experiments/detector_process_reader.h"
 #include "experiments/factor_reader.h"
+#include "experiments/rule_reader.h"
 #include "experiments/study_blocks.h"
 #include "experiments/study_reader.h"
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "experiments/versions.h"
+#include "core/program.h"
 #include "experiments/yaml_quoting.h"
 
 namespace fenestra {

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -101,10 +100,5 @@ struct CellSummary {
   std::vector<StageMedian> stage_medians;
   std::optional<double> median_total_s;
 };
-
-/// One summary per (cell, detector), ordered by cell, then detector. Does not depend on the order
-/// of the rows, to the last bit. A (cell, trial, detector) that occurs twice fails a check. See
-/// Summariser for rows that are not all in memory.
-std::vector<CellSummary> Summarise(std::span<const TrialRecord> records);
 
 }  // namespace fenestra

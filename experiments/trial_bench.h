@@ -63,4 +63,18 @@ class TrialBench {
   virtual std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const = 0;
 };
 
+/// A trial that every detector of its cell has tried.
+struct FinishedTrial {
+  const TrialBench& bench;
+  const SimulatedTrial& simulated;
+  const std::vector<Attempt>& attempts;
+
+  TrialKey key() const { return {bench.cell().index, simulated.trial.index}; }
+  std::vector<TrialRecord> Records() const {
+    std::vector<TrialRecord> records;
+    for (const Attempt& attempt : attempts) records.push_back(attempt.record);
+    return records;
+  }
+};
+
 }  // namespace fenestra

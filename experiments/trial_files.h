@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 
-#include "experiments/run_trials.h"
 #include "experiments/trial_bench.h"
 
 namespace fenestra {

@@ -9,7 +9,7 @@
 #include "experiments/envelope/envelope_search.h"
 #include "experiments/figure_tally.h"
 #include "experiments/study.h"
-#include "experiments/trial_key.h"
+#include "experiments/trial_record.h"
 
 namespace fenestra {
 

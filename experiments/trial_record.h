@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,14 @@
 #include "experiments/factors.h"
 
 namespace fenestra {
+
+/// One trial of a study.
+struct TrialKey {
+  int cell = 0;   ///< Index into Cells(study).
+  int trial = 0;  ///< Index in the cell, from 0.
+
+  auto operator<=>(const TrialKey&) const = default;
+};
 
 /// The outcome of one trial under one detector. The definitions are the same for all studies;
 /// ScoreDetection makes them, OutcomeDefinition prints them.

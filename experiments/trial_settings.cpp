@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "renderers/ray_caster.h"
+#include "scenes/facade_check.h"
 
 namespace fenestra {
 

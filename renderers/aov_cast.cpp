@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/input_error.h"
+#include "renderers/pane_kernels.h"
 
 namespace fenestra {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "renderers/light_transport.h"
-#include "renderers/ray_caster.h"
 #include "renderers/ray_grid.h"
+#include "renderers/render_types.h"
 
 namespace fenestra {
 

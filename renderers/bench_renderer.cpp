@@ -9,6 +9,7 @@
 #include "renderers/lane_kernels.h"
 #include "renderers/light_transport.h"
 #include "renderers/net_samples.h"
+#include "renderers/pane_kernels.h"
 #include "renderers/ray_caster.h"
 #include "renderers/traced_scene.h"
 #include "scenes/facade.h"

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "renderers/packet.h"
-#include "renderers/ray_caster.h"
+#include "renderers/render_types.h"
 #include "renderers/surface_patterns.h"
 #include "renderers/triangle_soup.h"
 

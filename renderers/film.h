@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "renderers/light_transport.h"
-#include "renderers/ray_caster.h"
+#include "renderers/render_types.h"
 
 namespace fenestra {
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <array>
-
-#include "renderers/lit_surfaces.h"
+#include "core/pose.h"
 #include "renderers/net_samples.h"
 #include "renderers/packet.h"
 
@@ -73,35 +71,8 @@ PixelPatches PatchesOf(const float* corner_data, const Lanes<uint32_t>& corner, 
 
 ImagePoints InPixels(const PixelPatches& patches, const PixelPoints& points);
 
-/// The side that each lane hit, or the sky or the ground: an index into SideRadiance tables.
+/// The side that each lane hit, or the sky or the ground: see SideIndex.
 Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count);
-
-/// The different sides among those that a packet has hit: few, and all lanes of one are shaded
-/// at once.
-struct SideGroups {
-  Lanes<uint32_t> sides;
-  int count = 0;
-};
-SideGroups GroupsOf(const Lanes<uint32_t>& side_hit);
-
-/// The light that leaves each hit, without the sun's, and the sun's if it reaches the hit.
-/// `groups`: of the sides hit.
-Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
-                            const Lanes<uint32_t>& side_hit, const RayPacket& packet);
-Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
-                        const Lanes<uint32_t>& side_hit, const RayPacket& packet);
-
-/// Rays from all hits towards a distant light, starting `offset_m` off the surface on the side
-/// that the packet's rays came from.
-RTCRay16 RaysFromHits(const RayPacket& packet, float offset_m, const glm::vec3& direction_W);
-
-/// Reflectances of the panes that lanes of the mask have hit, 0 in other lanes; `index` is the
-/// refractive index of each triangle.
-Lanes<float> PaneReflectances(const LaneMask& panes, const RayPacket& packet, const float* index);
-
-/// Rays mirrored where lanes of the mask have hit panes, starting `offset_m` before them; other
-/// lanes have no direction.
-RayPacket MirroredRays(const LaneMask& panes, const RayPacket& packet, float offset_m);
 
 /// How wide a pixel's area is on what was hit [m]: `spread` times the whole way of the ray, of
 /// which `before` is the part before a mirror, stretched by 1/cos, so its side by the root.

@@ -8,7 +8,6 @@
 
 #include "renderers/hemisphere.h"
 #include "renderers/lane_kernels.h"
-#include "renderers/lit_surfaces.h"
 
 namespace fenestra {
 namespace {

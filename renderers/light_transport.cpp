@@ -8,6 +8,7 @@
 #include "core/check.h"
 #include "core/wide.h"
 #include "renderers/diffuse_light.h"
+#include "renderers/pane_kernels.h"
 
 namespace fenestra {
 namespace {

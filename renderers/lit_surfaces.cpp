@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/wide.h"
+
 namespace fenestra {
 namespace {
 
@@ -72,6 +74,50 @@ std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& 
     sides.back().ambient = glm::dot(weights, GroundExitance(lighting)) * (1.0f / kPi);
   }
   return sides;
+}
+
+FENESTRA_WIDE SideGroups GroupsOf(const Lanes<uint32_t>& side_hit) {
+  SideGroups groups;
+  uint32_t differs = 0;
+  for (int i = 0; i < kLanes; ++i) differs |= side_hit[i] ^ side_hit[0];
+  groups.sides[groups.count++] = side_hit[0];
+  if (differs == 0) return groups;
+  for (int i = 1; i < kLanes; ++i) {
+    bool is_new = true;
+    for (int k = 0; k < groups.count; ++k) is_new = is_new && groups.sides[k] != side_hit[i];
+    if (is_new) groups.sides[groups.count++] = side_hit[i];
+  }
+  return groups;
+}
+
+FENESTRA_WIDE Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
+                                          const Lanes<uint32_t>& side_hit,
+                                          const RayPacket& packet) {
+  Lanes<float> light;
+  for (int k = 0; k < groups.count; ++k) {
+    const uint32_t hit = groups.sides[k];
+    const SideRadiance side = sides[hit];
+    for (int i = 0; i < kLanes; ++i) {
+      const float own =
+          side.ambient + side.ambient_u * packet.hit.u[i] + side.ambient_v * packet.hit.v[i];
+      light[i] = side_hit[i] == hit ? own : light[i];
+    }
+  }
+  return light;
+}
+
+FENESTRA_WIDE Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+                                      const Lanes<uint32_t>& side_hit, const RayPacket& packet) {
+  Lanes<float> light;
+  for (int k = 0; k < groups.count; ++k) {
+    const uint32_t hit = groups.sides[k];
+    const SideRadiance side = sides[hit];
+    for (int i = 0; i < kLanes; ++i) {
+      const float sun = side.sun + side.sun_u * packet.hit.u[i] + side.sun_v * packet.hit.v[i];
+      light[i] = side_hit[i] == hit ? (sun > 0.0f ? sun : 0.0f) : light[i];
+    }
+  }
+  return light;
 }
 
 }  // namespace fenestra

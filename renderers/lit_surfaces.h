@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "renderers/light_bake.h"
+#include "renderers/packet.h"
 #include "renderers/spectrum.h"
+#include "renderers/triangle_soup.h"
 #include "scenes/lighting.h"
 
 namespace fenestra {
@@ -21,12 +23,6 @@ struct SideRadiance {
   float sun_u = 0.0f;
   float sun_v = 0.0f;
 };
-
-/// Index of a side of a triangle: the front is the one its normal points to. After the last
-/// triangle follow the sky and the ground, as if they were the two sides of one more triangle.
-constexpr size_t SideIndex(size_t triangle, bool front) {
-  return 2 * triangle + (front ? 0 : 1);
-}
 
 /// Of a sky or sun of illuminance 1: the spectral irradiance at 830 nm may be 0.
 inline Spectrum DaylightSpectrum(double illuminance_lx, const Lighting& lighting) {
@@ -46,5 +42,20 @@ double SunIlluminance(const Lighting& lighting);
 std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
                                         const LightBake& bake, const std::vector<Spectrum>& ambient,
                                         const Lighting& lighting, Channel channel);
+
+/// The different sides among those that a packet has hit: few, and all lanes of one are shaded
+/// at once.
+struct SideGroups {
+  Lanes<uint32_t> sides;
+  int count = 0;
+};
+SideGroups GroupsOf(const Lanes<uint32_t>& side_hit);
+
+/// The light that leaves each hit, without the sun's, and the sun's if it reaches the hit.
+/// `groups`: of the sides hit.
+Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
+                            const Lanes<uint32_t>& side_hit, const RayPacket& packet);
+Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+                        const Lanes<uint32_t>& side_hit, const RayPacket& packet);
 
 }  // namespace fenestra

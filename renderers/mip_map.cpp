@@ -6,17 +6,17 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/io/srgb.h"
+
 namespace fenestra {
 namespace {
 
 constexpr float kOne = 65535.0f;
 
-// IEC 61966-2-1.
 std::array<uint16_t, 256> MakeDecoding() {
   std::array<uint16_t, 256> linear{};
   for (size_t i = 0; i < linear.size(); ++i) {
-    const double s = static_cast<double>(i) / 255.0;
-    const double value = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    const double value = LinearFromSrgb(static_cast<double>(i) / 255.0);
     linear[i] = static_cast<uint16_t>(std::lround(value * static_cast<double>(kOne)));
   }
   return linear;

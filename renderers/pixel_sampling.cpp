@@ -1,10 +1,5 @@
 #include "renderers/pixel_sampling.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "core/input_error.h"
 #include "renderers/edge_search.h"
 #include "renderers/film.h"
 #include "renderers/pixel_sampler.h"
@@ -22,24 +17,6 @@ void SampleEdgePixel(const PixelSampler& sampler, const RenderOptions& options, 
 }
 
 }  // namespace
-
-void Validate(const RenderOptions& options) {
-  std::vector<InputFault> faults;
-  const auto check = [&faults](const char* name, int samples) {
-    if (samples == 1 || samples == 4 || samples == 16 || samples == 64 || samples == 256) return;
-    faults.push_back(
-        {"render", 0, 0, fmt::format("{} must be 1, 4, 16, 64 or 256, not {}", name, samples)});
-  };
-  check("samples_per_pixel", options.samples_per_pixel);
-  check("edge_samples_per_pixel", options.edge_samples_per_pixel);
-  if (options.edge_samples_per_pixel < options.samples_per_pixel) {
-    faults.push_back({"render", 0, 0,
-                      fmt::format("edge_samples_per_pixel ({}) must not be less than "
-                                  "samples_per_pixel ({})",
-                                  options.edge_samples_per_pixel, options.samples_per_pixel)});
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
-}
 
 Film SampleImage(const LightTransport& light, const RayGrid& rays, const FloatPose& camera,
                  const RenderOptions& options, const RandomStream& sampling) {

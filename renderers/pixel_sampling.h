@@ -5,8 +5,8 @@
 #include "core/random_stream.h"
 #include "renderers/film.h"
 #include "renderers/light_transport.h"
-#include "renderers/ray_caster.h"
 #include "renderers/ray_grid.h"
+#include "renderers/render_types.h"
 
 namespace fenestra {
 

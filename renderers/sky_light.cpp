@@ -3,13 +3,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/pose.h"
 #include "renderers/lit_surfaces.h"
 
 namespace fenestra {
 namespace {
 
 // The sun's mean apparent radius: 959.6″. Source: Astronomical Almanac.
-constexpr double kSunRadius_rad = 959.6 / 3600.0 * std::numbers::pi / 180.0;
+constexpr double kSunRadius_rad = 959.6 / 3600.0 * kDegree;
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "renderers/ray_caster.h"
-#include "scenes/lamp.h"
+#include "renderers/render_types.h"
+#include "scenes/scene.h"
 
 namespace fenestra {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "renderers/lane_kernels.h"
 #include "core/wide.h"
+#include "renderers/pane_kernels.h"
 
 namespace fenestra {
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -31,6 +32,12 @@ struct TriangleSoup {
     return vertex_normals_W[triangles[triangle].x] != glm::vec3(0.0f);
   }
 };
+
+/// Index of a side of a triangle: the front is the one its normal points to. After the last
+/// triangle follow the sky and the ground, as if they were the two sides of one more triangle.
+constexpr size_t SideIndex(size_t triangle, bool front) {
+  return 2 * triangle + (front ? 0 : 1);
+}
 
 TriangleSoup MakeTriangleSoup(const Scene& scene, Material::Kind kind);
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "scenes/facade_blind.h"
+#include "scenes/facade_check.h"
 #include "scenes/facade_glazing.h"
 #include "scenes/facade_pipework.h"
 #include "scenes/facade_plan.h"

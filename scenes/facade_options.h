@@ -14,7 +14,10 @@ namespace fenestra {
 enum class WallFinish { kPlaster, kBrick, kConcrete, kCladding };
 
 /// Their names, in order: plaster, brick, ...
-const std::vector<std::string>& WallFinishNames();
+inline const std::vector<std::string>& WallFinishNames() {
+  static const std::vector<std::string> names = {"plaster", "brick", "concrete", "cladding"};
+  return names;
+}
 
 struct WallOptions {
   double width_m = 12.0;  ///< The wall is centred on the target.
@@ -159,9 +162,5 @@ struct FacadeOptions {
   /// from a stream of its own: what is added to a facade does not change the rest.
   double seed = 1.0;
 };
-
-/// Throws InputError, with all faults, for sizes that do not fit into each other and for numbers
-/// out of their domain.
-void Validate(const FacadeOptions& options);
 
 }  // namespace fenestra

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <numbers>
+
+#include "core/pose.h"
 
 namespace fenestra {
 
@@ -12,9 +13,9 @@ inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
 /// A distant disc too small to blur a shadow at window scale.
 struct Sun {
   /// Above the horizon, in the facade's half space for a positive z.
-  double azimuth_rad = 0.0;  ///< From the facade's normal (+Z) towards +X.
-  double elevation_rad = 40.0 * std::numbers::pi / 180.0;  ///< Above the horizon.
-  double illuminance_lx = 0.0;  ///< On a plane perpendicular to the rays; 0: no sun.
+  double azimuth_rad = 0.0;               ///< From the facade's normal (+Z) towards +X.
+  double elevation_rad = 40.0 * kDegree;  ///< Above the horizon.
+  double illuminance_lx = 0.0;            ///< On a plane perpendicular to the rays; 0: no sun.
 
   /// Unit vector from the scene to the sun.
   Eigen::Vector3d Direction_W() const;

@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/check.h"
+#include "core/io/srgb.h"
 #include "scenes/wall_pattern.h"
 
 namespace fenestra {
@@ -18,25 +19,16 @@ namespace {
 // Rec. ITU-R BT.709.
 constexpr glm::dvec3 kLuminance{0.2126, 0.7152, 0.0722};
 
-// IEC 61966-2-1.
-double LinearOfSrgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
-double SrgbOfLinear(double linear) {
-  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-}
-
 // The texel value for each linear value, in fine steps.
 class SrgbEncoder {
  public:
   SrgbEncoder() {
     for (size_t i = 0; i < code_.size(); ++i) {
       const double linear = static_cast<double>(i) / (static_cast<double>(code_.size()) - 1.0);
-      code_[i] = static_cast<uint8_t>(std::lround(255.0 * SrgbOfLinear(linear)));
+      code_[i] = static_cast<uint8_t>(std::lround(255.0 * SrgbFromLinear(linear)));
     }
     for (size_t i = 0; i < linear_.size(); ++i) {
-      linear_[i] = LinearOfSrgb(static_cast<double>(i) / 255.0);
+      linear_[i] = LinearFromSrgb(static_cast<double>(i) / 255.0);
     }
   }
 

@@ -7,6 +7,7 @@
 
 #include "core/freed_memory.h"
 #include "renderers/lane_kernels.h"
+#include "renderers/pane_kernels.h"
 #include "renderers/traced_scene.h"
 #include "scenes/facade.h"
 #include "sim/image_sensor.h"

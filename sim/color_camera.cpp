@@ -8,7 +8,7 @@
 
 #include "core/check.h"
 #include "core/demands.h"
-#include "sim/srgb.h"
+#include "core/io/srgb.h"
 
 namespace fenestra {
 namespace {

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/random_stream.h"
-#include "renderers/ray_caster.h"
+#include "renderers/render_types.h"
 #include "sim/gathered_pattern.h"
 #include "sim/infrared_view.h"
 

@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "renderers/ray_caster.h"
 #include "renderers/ray_grid.h"
+#include "renderers/render_types.h"
 
 namespace fenestra {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/camera_model.h"
-#include "renderers/ray_caster.h"
+#include "renderers/render_types.h"
 #include "sim/depth_frame.h"
 #include "sim/disparity_range.h"
 #include "sim/infrared_image.h"

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/demands.h"
+#include "core/random/random_pose.h"
 
 namespace fenestra {
 namespace {
@@ -40,10 +41,6 @@ Pose DesignedRight(double baseline_m) {
   return Pose::Translation({0.5 * baseline_m, 0.0, 0.0});
 }
 
-Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
-  return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
-}
-
 CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& camera) {
   if (options.as_designed) return DesignedCamera(options);
   const RigTolerances& tolerances = options.tolerances;
@@ -67,8 +64,7 @@ CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& cam
 Pose Mounting(const StereoRigOptions& options, const RandomStream& camera) {
   if (options.as_designed) return Pose();
   const RigTolerances& tolerances = options.tolerances;
-  return Pose(RotationFromVector(NormalVector(camera.Child("rotation"), tolerances.rotation_rad)),
-              NormalVector(camera.Child("translation"), tolerances.translation_m));
+  return RandomPose(camera, tolerances.rotation_rad, tolerances.translation_m);
 }
 
 // Where the left image's surface points are in the right one, as differences of their pixels.

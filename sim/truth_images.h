@@ -4,7 +4,7 @@
 
 #include "core/camera_model.h"
 #include "core/pose.h"
-#include "renderers/ray_caster.h"
+#include "renderers/render_types.h"
 
 namespace fenestra {
 

@@ -8,13 +8,13 @@
 #include <numbers>
 
 #include "core/check.h"
+#include "core/pose.h"
 
 namespace fenestra {
 namespace {
 
 using Table = ParameterTable<WindowPrior>;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSigmas = 5.0;
 
 #define FENESTRA_FIELD(field)    \

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
+#include "experiments/bounds/row_selection.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
@@ -38,19 +38,10 @@ struct Figure {
   Quantity quantity = Quantity::kError;  ///< Of all others.
 };
 
-enum class Comparison { kEqual, kNotEqual, kLess, kAtMost, kGreater, kAtLeast, kIn };
-
-/// `name` is a factor, "detector", "part" or "sensor"; several values for kIn only.
-struct Condition {
-  std::string name;
-  Comparison comparison = Comparison::kEqual;
-  std::vector<ParameterValue> values;
-};
-
 /// One line of a file of bounds: a figure, a limit for it, the rows that it is taken over.
 struct Bound {
   std::string text{};  ///< As written.
-  int line = 0;      ///< In its file; 0 if it stands in none.
+  int line = 0;        ///< In its file; 0 if it stands in none.
   Figure figure{};
   /// Figure ≤ limit, or figure ≥ limit.
   bool is_upper = true;

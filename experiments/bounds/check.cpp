@@ -144,6 +144,17 @@ std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
   return tasks;
 }
 
+void CheckConditions(const std::string& source, std::span<const Bound> bounds,
+                     const RowSelection& selection) {
+  std::vector<InputFault> faults;
+  for (const Bound& bound : bounds) {
+    for (const std::string& message : selection.Objections(bound.where)) {
+      faults.push_back({.source = source, .line = bound.line, .message = message});
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
 std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& selection,
                               std::span<const TrialRecord> rows,
                               std::span<const TrialRecord> baseline) {
@@ -190,7 +201,7 @@ int CheckResult::Count(Verdict verdict) const {
 CheckResult CheckBounds(const std::string& source, const BoundFile& file, const Study& study,
                         std::span<const TrialRecord> rows, std::span<const TrialRecord> baseline) {
   const RowSelection selection(study);
-  selection.Check(source, file.bounds);
+  CheckConditions(source, file.bounds, selection);
   const std::vector<SelectedRow> selected = Pair("--baseline", selection, rows, baseline);
   std::vector<InputFault> faults;
   std::vector<Task> tasks;

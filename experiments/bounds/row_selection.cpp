@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "core/did_you_mean.h"
-#include "core/input_error.h"
 
 namespace fenestra {
 namespace {
@@ -86,16 +85,12 @@ std::vector<std::string> Faults(const Study& study, const Condition& condition) 
 
 RowSelection::RowSelection(const Study& study) : study_(study), cells_(Cells(study)) {}
 
-void RowSelection::Check(const std::string& source, std::span<const Bound> bounds) const {
-  std::vector<InputFault> faults;
-  for (const Bound& bound : bounds) {
-    for (const Condition& condition : bound.where) {
-      for (const std::string& message : Faults(study_, condition)) {
-        faults.push_back({.source = source, .line = bound.line, .message = message});
-      }
-    }
+std::vector<std::string> RowSelection::Objections(std::span<const Condition> where) const {
+  std::vector<std::string> objections;
+  for (const Condition& condition : where) {
+    for (std::string& message : Faults(study_, condition)) objections.push_back(std::move(message));
   }
-  if (!faults.empty()) throw InputError(faults);
+  return objections;
 }
 
 std::optional<ParameterValue> RowSelection::ValueOf(const TrialRecord& row,

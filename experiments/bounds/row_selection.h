@@ -5,11 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "experiments/bounds/bound.h"
+#include "core/parameter_table.h"
 #include "experiments/study.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
+
+enum class Comparison { kEqual, kNotEqual, kLess, kAtMost, kGreater, kAtLeast, kIn };
+
+/// `name` is a factor, "detector", "part" or "sensor"; several values for kIn only.
+struct Condition {
+  std::string name;
+  Comparison comparison = Comparison::kEqual;
+  std::vector<ParameterValue> values;
+};
 
 /// Finds the rows that a bound speaks of. A factor's value in a row is what was drawn in its trial,
 /// else the cell's level, else what the study fixes.
@@ -17,9 +26,9 @@ class RowSelection {
  public:
   explicit RowSelection(const Study& study);
 
-  /// Throws InputError unless the conditions' detectors, parts and sensors occur in the study and
-  /// its factors concern a part.
-  void Check(const std::string& source, std::span<const Bound> bounds) const;
+  /// What is wrong with conditions: a detector, part or sensor that the study does not have, a
+  /// factor that concerns none of its parts.
+  std::vector<std::string> Objections(std::span<const Condition> where) const;
 
   bool Matches(const TrialRecord& row, std::span<const Condition> where) const;
 

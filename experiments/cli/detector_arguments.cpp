@@ -7,7 +7,6 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/detector_choice_reader.h"
-#include "experiments/detector_process_reader.h"
 
 namespace fenestra::cli {
 namespace {

@@ -8,8 +8,9 @@
 #include "core/did_you_mean.h"
 #include "core/freed_memory.h"
 #include "core/input_error.h"
+#include "core/program.h"
 #include "experiments/cli/commands.h"
-#include "experiments/versions.h"
+#include "experiments/library_versions.h"
 
 namespace fenestra::cli {
 namespace {

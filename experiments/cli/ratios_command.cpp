@@ -5,6 +5,7 @@
 
 #include "experiments/cli/commands.h"
 #include "experiments/paired_ratio.h"
+#include "experiments/paired_ratio_report.h"
 #include "experiments/result_files.h"
 #include "experiments/store.h"
 

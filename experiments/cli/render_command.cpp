@@ -2,10 +2,10 @@
 
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include "core/input_error.h"
+#include "core/pose.h"
 #include "experiments/cell_bench.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
@@ -18,8 +18,6 @@
 
 namespace fenestra::cli {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 struct RenderArguments {
   std::string what;

@@ -6,11 +6,11 @@
 #include <thread>
 
 #include "core/input_error.h"
+#include "core/program.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/progress.h"
 #include "experiments/study_reader.h"
-#include "experiments/versions.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -8,9 +8,9 @@
 
 #include "core/atomic_file.h"
 #include "core/input_error.h"
+#include "core/shell_quoting.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"
-#include "experiments/shell_quoting.h"
 #include "experiments/slurm_scripts.h"
 #include "experiments/study_catalogue.h"
 

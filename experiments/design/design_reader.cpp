@@ -9,6 +9,7 @@
 #include "experiments/design/causes.h"
 #include "experiments/design/gaussian_copula.h"
 #include "experiments/detector_choice_reader.h"
+#include "experiments/name_reader.h"
 
 namespace fenestra {
 namespace {

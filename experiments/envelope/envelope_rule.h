@@ -2,9 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <vector>
-
-#include "core/yaml_reader.h"
 
 namespace fenestra {
 
@@ -28,11 +25,8 @@ struct EnvelopeRule {
   bool operator==(const EnvelopeRule&) const = default;
 };
 
-/// Reads {over: distance_m, require: {hit_rate: 0.95, p95_error_mm: 50}, confidence: 0.95}; faults
-/// are noted in the reader.
-std::optional<EnvelopeRule> ReadEnvelopeRule(YamlReader& reader, const YAML::Node& node);
-
-inline const std::vector<std::string> kEnvelopeKeys{"over", "require", "confidence"};
-inline const std::vector<std::string> kRequirementKeys{"hit_rate", "p50_error_mm", "p95_error_mm"};
+/// Whether so many attempts, if all of them are good, show with the rule's confidence that its
+/// requirement holds.
+bool AllGoodSuffice(const EnvelopeRule& rule, int attempts);
 
 }  // namespace fenestra

@@ -1,19 +1,9 @@
 #include "experiments/envelope/requirement_count.h"
 
-#include <algorithm>
-
 #include "core/check.h"
 #include "experiments/statistics.h"
 
 namespace fenestra {
-namespace {
-
-// Each end of a two-sided interval of confidence 1 - 2 α is a one-sided limit of confidence 1 - α.
-Interval OneSidedLimits(int good, int attempts, double confidence) {
-  return ClopperPearson(good, attempts, std::max(1e-9, 1.0 - 2.0 * (1.0 - confidence)));
-}
-
-}  // namespace
 
 const char* ToString(RequirementVerdict verdict) {
   switch (verdict) {

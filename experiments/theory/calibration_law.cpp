@@ -1,7 +1,7 @@
 #include "experiments/theory/calibration_law.h"
 
 #include "core/check.h"
-#include "experiments/theory/frame_state.h"
+#include "core/pose.h"
 
 namespace fenestra {
 namespace {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "experiments/calibration_choice.h"
+#include "sim/stereo_rig.h"
 #include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {

@@ -15,12 +15,6 @@ FrameState FrameState::Of(const WindowTruth& window, double border_m) {
           .border_m = border_m};
 }
 
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return matrix;
-}
-
 FramePoint PointOn(const FrameState& frame, FrameEdge edge, const Eigen::Vector2d& place) {
   const bool inner = edge == FrameEdge::kInner;
   const double inset_m = inner ? frame.border_m : 0.0;

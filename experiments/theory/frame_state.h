@@ -36,7 +36,4 @@ enum class FrameEdge { kOuter, kInner };
 /// `place`: (-1, -1) is the rectangle's bottom left, (1, 1) its top right.
 FramePoint PointOn(const FrameState& frame, FrameEdge edge, const Eigen::Vector2d& place);
 
-/// [v]× with [v]× w = v × w.
-Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v);
-
 }  // namespace fenestra

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/io/srgb.h"
+
 namespace fenestra {
 namespace {
 
-// Electrons per step of an 8-bit sRGB value, at x of full scale: dx/dv for v = 12.92 x below
-// 0.0031308, 1.055 x^(1/2.4) - 0.055 above (IEC 61966-2-1).
+// Electrons per step of an 8-bit sRGB value, at x of full scale.
 double EncodedStep_e(double x, double full_scale_e) {
-  const double slope = x <= 0.0031308 ? 12.92 : 1.055 / 2.4 * std::pow(x, 1.0 / 2.4 - 1.0);
-  return full_scale_e / (255.0 * slope);
+  return full_scale_e / (255.0 * SrgbSlope(x));
 }
 
 }  // namespace

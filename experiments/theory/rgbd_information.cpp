@@ -1,8 +1,8 @@
 #include "experiments/theory/rgbd_information.h"
 
-#include <cmath>
 #include <opencv2/core.hpp>
 
+#include "core/io/srgb.h"
 #include "experiments/theory/cramer_rao.h"
 #include "experiments/theory/picture_information.h"
 
@@ -14,13 +14,11 @@ constexpr int kBlurs = kDepthUnknowns;
 constexpr int kLevels = kBlurs + kChannels;
 constexpr int kUnknowns = kLevels + kChannels * kLevelsOfPicture;
 
-// Photo-electrons of sRGB values (IEC 61966-2-1).
+// Photo-electrons of sRGB values.
 cv::Mat1f Decoded(const cv::Mat3b& color, int channel, double full_scale_e) {
   cv::Mat1f linear(1, 256);
   for (int i = 0; i < 256; ++i) {
-    const double v = i / 255.0;
-    const double x = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    linear(i) = static_cast<float>(full_scale_e * x);
+    linear(i) = static_cast<float>(full_scale_e * LinearFromSrgb(i / 255.0));
   }
   cv::Mat1b values;
   cv::extractChannel(color, values, channel);

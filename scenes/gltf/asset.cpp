@@ -7,7 +7,7 @@
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/extensions.h"
 #include "scenes/gltf/fault_list.h"
-#include "scenes/gltf/instancing.h"
+#include "scenes/gltf/instance_attributes.h"
 #include "scenes/gltf/schema_check.h"
 #include "scenes/gltf/structure_check.h"
 #include "scenes/gltf/uri.h"

@@ -4,21 +4,11 @@
 #include <vector>
 
 #include "scenes/gltf/asset.h"
-#include "scenes/gltf/fault_list.h"
 
 namespace fenestra::gltf {
 
-/// EXT_mesh_gpu_instancing: a node's mesh stands in many places, which accessors list as
-/// TRANSLATION, ROTATION and SCALE in the node's axes.
-
-/// That their types are the allowed ones and that they are equally long.
-void CheckInstancing(const tinygltf::Model& model, FaultList& faults);
-
-/// 1 without the extension; nothing is read for it.
-size_t InstanceCount(const Asset& asset, const tinygltf::Node& node);
-
-/// M_NI of each instance I; the identity without the extension. Throws InputError for a rotation
-/// that is none.
+/// M_NI of each instance I of a node's mesh (see InstanceAttributes); the identity without the
+/// extension. Throws InputError for a rotation that is none.
 std::vector<Eigen::Matrix4d> InstanceTransforms(const Asset& asset, const tinygltf::Node& node);
 
 }  // namespace fenestra::gltf

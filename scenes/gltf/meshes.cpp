@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/input_error.h"
+#include "scenes/gltf/instance_attributes.h"
 #include "scenes/gltf/instancing.h"
 #include "scenes/gltf/skinning.h"
 #include "scenes/gltf/surfaces.h"
@@ -31,7 +32,7 @@ void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes
   for (const PlacedNode& placed : nodes) {
     const tinygltf::Mesh* mesh = MeshOf(asset, placed);
     if (mesh == nullptr) continue;
-    const size_t instances = InstanceCount(asset, asset.model.nodes[placed.node]);
+    const size_t instances = InstanceCount(asset.model, asset.model.nodes[placed.node]);
     for (const tinygltf::Primitive& primitive : mesh->primitives) {
       if (!IsSurface(primitive)) continue;
       const size_t more_triangles = ClaimedTriangles(asset, primitive);

@@ -3,7 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
+
+#include "core/io/srgb.h"
 
 namespace fenestra::gltf {
 namespace {
@@ -17,12 +18,6 @@ Texture::Wrap WrapOf(int code) {
     default:
       return Texture::Wrap::kRepeat;
   }
-}
-
-// IEC 61966-2-1.
-double LinearFromSrgb(int code) {
-  const double v = code / 255.0;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace
@@ -60,7 +55,7 @@ glm::dvec3 TextureShelf::MeanLinear(int texture) {
   glm::dvec3 mean(0.0);
   for (int c = 0; c < 3; ++c) {
     for (int code = 0; code < 256; ++code) {
-      mean[c] += LinearFromSrgb(code) *
+      mean[c] += LinearFromSrgb(code / 255.0) *
                  static_cast<double>(histograms[static_cast<size_t>(c)][static_cast<size_t>(code)]);
     }
   }

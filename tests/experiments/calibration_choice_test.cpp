@@ -1,4 +1,4 @@
-#include "experiments/calibration_choice.h"
+#include "experiments/calibrated_rig.h"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/input_error.h"
+#include "experiments/paired_ratio_report.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

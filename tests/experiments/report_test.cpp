@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "experiments/cell_tally.h"
 #include "experiments/number_format.h"
 #include "experiments/text_table.h"
 #include "tests/experiments/record_examples.h"

@@ -1,4 +1,4 @@
-#include "experiments/shell_quoting.h"
+#include "core/shell_quoting.h"
 
 #include <gtest/gtest.h>
 

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/input_error.h"
+#include "experiments/cell_tally.h"
 #include "experiments/record_json.h"
 #include "experiments/result_files.h"
 #include "tests/experiments/record_examples.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "experiments/cell_tally.h"
 #include "experiments/report.h"
 #include "tests/experiments/record_examples.h"
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/input_error.h"
+#include "scenes/facade_check.h"
 #include "scenes/facade_plan.h"
 #include "scenes/facade_shutters.h"
 #include "tests/scenes/facade_examples.h"

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include "core/pose.h"
 
 namespace fenestra {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TEST(ViewpointTest, StraightInFrontTheRigLooksAlongMinusZWithALevelHorizon) {
   const Pose X_WB = RigPose({.distance_m = 3.0}, Pose());

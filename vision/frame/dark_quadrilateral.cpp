@@ -4,6 +4,8 @@
 #include <bitset>
 #include <cmath>
 
+#include "vision/frame/edge_segments.h"
+
 namespace fenestra {
 namespace {
 

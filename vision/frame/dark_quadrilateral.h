@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "vision/frame/darkness.h"
-#include "vision/frame/edge_segments.h"
+#include "vision/frame/edge_segment.h"
 #include "vision/frame/quadrilateral.h"
 
 namespace fenestra {

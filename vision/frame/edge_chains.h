@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vision/frame/edge_segments.h"
+#include "vision/frame/edge_segment.h"
 
 namespace fenestra {
 

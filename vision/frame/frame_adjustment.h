@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/edge_points.h"
+#include "vision/frame/side_request.h"
 #include "vision/frame/frame_knowledge.h"
 #include "vision/frame/frame_rectangle.h"
 

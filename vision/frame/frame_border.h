@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "vision/frame/edge_points.h"
+#include "vision/frame/side_request.h"
 
 namespace fenestra {
 

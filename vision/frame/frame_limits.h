@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/detection.h"
-#include "vision/frame/frame_adjustment.h"
+#include "vision/frame/frame_knowledge.h"
 #include "vision/frame/frame_rectangle.h"
 #include "vision/window_prior.h"
 

@@ -27,12 +27,6 @@ Vector2d Place(Side side, double share) {
   return {-1.0, along};
 }
 
-Matrix3d CrossMatrix(const Vector3d& v) {
-  Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
 }  // namespace
 
 FrameRectangle FrameRectangle::Moved(const Step& step) const {

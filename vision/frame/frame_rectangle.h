@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/detection.h"
-#include "vision/frame/edge_segments.h"
+#include "vision/frame/edge_segment.h"
 
 namespace fenestra {
 

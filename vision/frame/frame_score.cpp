@@ -1,5 +1,9 @@
 #include "vision/frame/frame_score.h"
 
+#include <fmt/format.h>
+
+#include "vision/frame/frame_border.h"
+
 namespace fenestra {
 namespace {
 
@@ -63,6 +67,24 @@ double FrameScore(std::span<const CameraView> views, const FrameFit& fit,
                       0.2 * fit.inner_support;
   return seen * (fit.is_flat ? 1.0 : kNotFlat) *
          (1.0 - 0.6 * BrightBand(views, frame, settings.black_dn));
+}
+
+std::optional<Miss> ObjectionToClarity(std::span<const CameraView> views,
+                                       const FrameRectangle& frame,
+                                       const DarknessSettings& settings, double min_clarity) {
+  const double clarity = FrameClarity(views, frame, settings);
+  if (!(clarity < min_clarity)) return std::nullopt;
+  return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
+                                      "{:.2f}, {:.2f} are needed",
+                                      clarity, min_clarity)};
+}
+
+WindowEstimate EstimateOf(std::span<const CameraView> views, const FrameFit& fit,
+                          double rough_score, const DarknessSettings& settings) {
+  WindowEstimate estimate = fit.front.ToEstimate();
+  estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
+  estimate.score = 0.5 * (rough_score + FrameScore(views, fit, settings));
+  return estimate;
 }
 
 }  // namespace fenestra

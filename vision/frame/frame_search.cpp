@@ -1,14 +1,12 @@
 #include "vision/frame/frame_search.h"
 
-#include <numbers>
+#include "core/pose.h"
 
 namespace fenestra {
 namespace {
 
 using Options = FrameSearchOptions;
 using Table = ParameterTable<Options>;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 #define FENESTRA_FIELD(field) \
   [](Options & o) -> auto& {  \

@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "vision/frame/edge_points.h"
+#include "vision/frame/side_request.h"
 
 namespace fenestra {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "vision/frame/edge_points.h"
+#include "vision/frame/side_request.h"
 #include "vision/window_prior.h"
 
 namespace fenestra {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/io/srgb.h"
+
 namespace fenestra {
 namespace {
 
@@ -12,10 +14,6 @@ constexpr double kBright_dn = 200.0;
 constexpr double kBrightShare = 0.98;
 constexpr int kUnits = 5461;  // Of a channel; three of them fill 14 bits.
 constexpr int kSums = 3 * kUnits + 1;
-
-double LinearFromSrgb(double encoded) {
-  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-}
 
 std::array<int, 256> MakeTable() {
   std::array<int, 256> table{};

@@ -7,10 +7,11 @@
 
 #include "core/input_error.h"
 #include "vision/rgbd/crossing_covariance.h"
+#include "vision/rgbd/depth_picture.h"
 #include "vision/rgbd/frame_vertices.h"
 #include "vision/rgbd/narf_key_points.h"
 #include "vision/rgbd/opening.h"
-#include "vision/rgbd/pictures.h"
+#include "vision/rgbd/paper_pictures.h"
 #include "vision/rgbd/vertices.h"
 
 namespace fenestra {

@@ -7,28 +7,23 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/input_error.h"
+#include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
 #include "vision/rgbd/frame_paint.h"
 #include "vision/rgbd/frame_planes.h"
 #include "vision/rgbd/linear_grey.h"
 #include "vision/rgbd/observation_check.h"
-#include "vision/rgbd/pictures.h"
+#include "vision/rgbd/plane_pictures.h"
 #include "vision/rgbd/seen_setback.h"
 #include "vision/rgbd/undistortion.h"
 
 namespace fenestra {
 namespace {
 
-constexpr double kReach_px = 4.0;  // Of pixels that an edge is fitted to.
-constexpr double kFar_px = 8.0;    // The same where the light is even.
 // Half a depth pixel's window, and a pixel for the place of its evidence.
 constexpr double kClearWindows = 0.5;
 constexpr double kClear_px = 1.0;
-// Fits that may fail before a picture is given up: each takes some milliseconds.
-constexpr int kMostFinished = 4;
-// Candidates that begin with less than this share of the best one's score are not measured.
-constexpr double kHopeless = 0.7;
 constexpr double kLeastOfColor = 0.5;
 // A frame is of one paint: of its sides' grey values, the brightest over the darkest, above what
 // noise and blur leave of black. Light on a wall hardly differs by so much within a window.
@@ -86,8 +81,6 @@ PlaneRgbdDetector::PlaneRgbdDetector(const RgbdCalibration& calibration,
       darkness_{
           .black_dn = 0.0, .min_contrast_dn = options.search.min_contrast_dn, .reach_px = 4.0},
       fitting_{.min_contrast_dn = options.search.min_contrast_dn,
-               .reach_px = kReach_px,
-               .far_px = kFar_px,
                .min_side_support = options.search.min_side_support,
                .border = {.smallest_m = options.search.min_border_m,
                           .largest_share = options.search.max_border_share,
@@ -192,22 +185,16 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
   AddSetback(view, fitting_.size.has_value(), finished.planes, finished.fit);
   const FrameRectangle& fitted = finished.fit.adjustment.frame;
   if (auto objection = Objection(sight, fitted)) return *objection;
-  finished.estimate = fitted.ToEstimate();
-  finished.estimate.covariance_C = finished.fit.adjustment.covariance.block<3, 3>(3, 3);
-  // The rough fit cannot hide behind freedoms that it did not have.
-  finished.estimate.score =
-      0.5 * (candidate.score + FrameScore({&view, 1}, finished.fit, darkness_));
+  finished.estimate = EstimateOf({&view, 1}, finished.fit, candidate.score, darkness_);
   return finished;
 }
 
 std::optional<Miss> PlaneRgbdDetector::Objection(const Sight& sight,
                                                  const FrameRectangle& fitted) const {
   if (auto objection = ObjectionToFrame(fitted, limits_)) return objection;
-  const double clarity = FrameClarity({&sight.view, 1}, fitted, darkness_);
-  if (clarity < options_.search.min_darkness) {
-    return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
-                                        "{:.2f}, {:.2f} are needed",
-                                        clarity, options_.search.min_darkness)};
+  if (auto objection =
+          ObjectionToClarity({&sight.view, 1}, fitted, darkness_, options_.search.min_darkness)) {
+    return objection;
   }
   const double uneven = BrightestOverDarkestSide(sight.view, fitted, kBlack_dn);
   if (uneven > kMostUneven) {
@@ -228,9 +215,6 @@ Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<Plane
   const CameraView& view = sight.view;
   const std::span<const CameraView> views(&view, 1);
   std::optional<Miss> objection;
-  const auto object = [&objection](const Miss& miss) {
-    if (!objection) objection = miss;
-  };
   std::vector<Candidate> candidates;
   for (const PlaneSeed& seed : seeds) {
     FrameFitSettings settings = fitting_;
@@ -240,42 +224,25 @@ Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<Plane
     auto rough = fitter.FitRoughly(seed.frame);
     if (!rough) continue;
     if (const auto other = ObjectionToPrior(rough->adjustment.frame, options_.prior)) {
-      object(*other);
+      if (!objection) objection = other;
       continue;
     }
     const double score = FrameScore(views, *rough, darkness_);
     candidates.push_back({seed, std::move(fitter), std::move(*rough), score});
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.score > b.score; });
-  std::vector<Finished> found;
-  int tried = 0;
-  for (Candidate& candidate : candidates) {
-    if (found.size() == static_cast<size_t>(options_.search.most_windows)) break;
-    if (tried++ == kMostFinished) break;
-    if (!found.empty() && candidate.score < kHopeless * *found.front().estimate.score) break;
-    auto result = Finish(sight, candidate);
-    if (const Miss* miss = std::get_if<Miss>(&result)) {
-      object(*miss);
-    } else {
-      found.push_back(std::move(std::get<Finished>(result)));
-    }
-  }
-  if (found.empty()) {
+  const BestFits best = FinishBest(std::move(candidates), options_.search.most_windows,
+                                   [&](Candidate& candidate) { return Finish(sight, candidate); });
+  if (!objection) objection = best.objection;
+  if (best.found.empty()) {
     return objection.value_or(Miss{"no_edges", "too few edge points to fix a rectangle"});
   }
   log.Begin("choose");
-  std::stable_sort(found.begin(), found.end(), [](const Finished& a, const Finished& b) {
-    return *a.estimate.score > *b.estimate.score;
-  });
-  log.Picture("edge_points", [&] { return DrawEdgePoints(views, found.front().fit); },
+  const Finished& chosen = best.found.front();
+  log.Picture("edge_points", [&] { return DrawEdgePoints(views, chosen.fit); },
               {PictureView{view.camera, view.X_CL}});
-  log.Picture("depth_use",
-              [&] { return DrawDepthUse(sight.images.depth, found.front().planes, reader_); },
+  log.Picture("depth_use", [&] { return DrawDepthUse(sight.images.depth, chosen.planes, reader_); },
               {PictureView{calibration_.depth, Pose()}});
-  WindowEstimate chosen = found.front().estimate;
-  for (size_t i = 1; i < found.size(); ++i) chosen.others.push_back(found[i].estimate);
-  return chosen;
+  return best.Chosen();
 }
 
 }  // namespace fenestra

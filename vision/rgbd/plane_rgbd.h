@@ -2,7 +2,7 @@
 
 #include "core/calibration.h"
 #include "core/detector.h"
-#include "vision/frame/frame_fit.h"
+#include "vision/frame/frame_fitter.h"
 #include "vision/rgbd/depth_points.h"
 #include "vision/rgbd/plane_rgbd_options.h"
 #include "vision/rgbd/plane_seed.h"
@@ -17,7 +17,7 @@ namespace fenestra {
 ///   depth_points segments   straight edges, by the side of something dark
 ///   vision/frame/edge_segments propose    dark quadrilaterals vision/frame/dark_quadrilateral
 ///   plane      those that are rectangles on the plane around them         plane_seed
-///   fit        edges to sub-pixel in the colour image as delivered,       vision/frame/frame_fit,
+///   fit        edges to sub-pixel in the colour image as delivered,       vision/frame/frame_fitter,
 ///              the planes of wall and frame with their covariance,        depth_plane, frame_depth
 ///              one rectangle with a border fitted to all of them
 ///   choose     the clearest; the others go with it

@@ -2,23 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/input_error.h"
+#include "vision/frame/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
-#include "vision/stereo/stage_pictures.h"
+#include "vision/stereo/rectified_pictures.h"
 
 namespace fenestra {
 namespace {
 
-constexpr double kReach_px = 4.0;
-// Where light is even, so far beside an edge its level is told well enough.
-constexpr double kFar_px = 8.0;
-// Fits that may fail before a pair is given up: each takes some milliseconds.
-constexpr int kMostFinished = 4;
-// Candidates that begin with less than this share of the best one's score are not measured.
-constexpr double kHopeless = 0.7;
 // Of the outer sides' contrast. Between frame and opening there is little, in front of a dark room;
 // but all of their length counts.
 constexpr double kInnerContrast = 0.4;
@@ -51,8 +43,6 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                 .reach_px = 4.0},
       fitting_{
           .min_contrast_dn = options.search.min_contrast_dn,
-          .reach_px = kReach_px,
-          .far_px = kFar_px,
           .min_side_support = options.search.min_side_support,
           .border = {.smallest_m = options.search.min_border_m,
                      .largest_share = options.search.max_border_share,
@@ -124,52 +114,23 @@ Detection EdgeStereoDetector::FitBest(const std::array<CameraView, 2>& views,
     candidates.push_back({std::move(fitter), std::move(*rough), score});
   }
   if (candidates.empty()) return last_objection;
-  const auto by_score = [](const auto& a, const auto& b) { return a.score > b.score; };
-  std::stable_sort(candidates.begin(), candidates.end(), by_score);
-
-  std::vector<WindowEstimate> found;
-  std::vector<FrameFit> fits;
-  int finished = 0;
-  std::optional<Miss> first_objection;
-  for (Candidate& candidate : candidates) {
-    if (found.size() == static_cast<size_t>(options_.search.most_windows)) break;
-    if (finished++ == kMostFinished) break;
-    if (!found.empty() && candidate.score < kHopeless * found.front().score.value()) break;
-    const auto result = candidate.fitter.Finish(candidate.rough);
-    std::optional<Miss> objection;
-    if (const Miss* miss = std::get_if<Miss>(&result)) {
-      objection = *miss;
-    } else {
-      objection = Objection(views, std::get<FrameFit>(result));
-    }
-    if (objection) {
-      if (!first_objection) first_objection = objection;
-      continue;
-    }
-    const FrameFit& fit = std::get<FrameFit>(result);
-    WindowEstimate estimate = fit.front.ToEstimate();
-    estimate.covariance_C = fit.adjustment.covariance.block<3, 3>(3, 3);
-    // The rough fit cannot hide behind freedoms that it did not have.
-    estimate.score = 0.5 * (candidate.score + FrameScore(views, fit, darkness_));
-    found.push_back(std::move(estimate));
-    fits.push_back(fit);
-  }
-  if (found.empty()) return *first_objection;
-
+  const BestFits best = FinishBest(std::move(candidates), options_.search.most_windows,
+                                   [&](Candidate& candidate) { return Finish(views, candidate); });
+  if (best.found.empty()) return *best.objection;
   log.Begin("choose");
-  const auto best = std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) {
-    return a.score.value() < b.score.value();
-  });
-  log.Picture(
-      "edge_points",
-      [&] { return DrawEdgePoints(views, fits[static_cast<size_t>(best - found.begin())]); },
-      {PictureView{views[0].camera, Pose()}});
-  WindowEstimate chosen = *best;
-  found.erase(best);
-  chosen.others = std::move(found);
-  std::stable_sort(chosen.others.begin(), chosen.others.end(),
-                   [](const auto& a, const auto& b) { return a.score.value() > b.score.value(); });
-  return chosen;
+  log.Picture("edge_points", [&] { return DrawEdgePoints(views, best.found.front().fit); },
+              {PictureView{views[0].camera, Pose()}});
+  return best.Chosen();
+}
+
+std::variant<EdgeStereoDetector::Finished, Miss> EdgeStereoDetector::Finish(
+    std::span<const CameraView> views, Candidate& candidate) const {
+  auto result = candidate.fitter.Finish(candidate.rough);
+  if (const Miss* miss = std::get_if<Miss>(&result)) return *miss;
+  Finished finished{std::move(std::get<FrameFit>(result)), {}};
+  if (auto objection = Objection(views, finished.fit)) return *objection;
+  finished.estimate = EstimateOf(views, finished.fit, candidate.score, darkness_);
+  return finished;
 }
 
 std::vector<FrameSeed> EdgeStereoDetector::Seeds(const std::vector<DarkQuadrilateral>& candidates,
@@ -188,11 +149,8 @@ std::optional<Miss> EdgeStereoDetector::Objection(std::span<const CameraView> vi
                                                   const FrameFit& fit) const {
   const FrameRectangle& frame = fit.adjustment.frame;
   if (auto objection = ObjectionToFrame(frame, limits_)) return objection;
-  const double clarity = FrameClarity(views, frame, darkness_);
-  if (clarity < options_.search.min_darkness) {
-    return Miss{"not_dark", fmt::format("the fitted frame is darker than its surroundings by "
-                                        "{:.2f}, {:.2f} are needed",
-                                        clarity, options_.search.min_darkness)};
+  if (auto objection = ObjectionToClarity(views, frame, darkness_, options_.search.min_darkness)) {
+    return objection;
   }
   // Without an opening of its own it is one: that of a light frame.
   if (fit.inner_support < kOpening && BrightBand(views, frame, options_.black_dn) > kLight) {

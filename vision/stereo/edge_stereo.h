@@ -2,7 +2,7 @@
 
 #include "core/calibration.h"
 #include "core/detector.h"
-#include "vision/frame/frame_fit.h"
+#include "vision/frame/frame_fitter.h"
 #include "vision/frame/frame_limits.h"
 #include "vision/stereo/edge_stereo_options.h"
 #include "vision/stereo/frame_seed.h"
@@ -17,7 +17,7 @@ namespace fenestra {
 ///   segments   straight edges of both, by the side of something dark        edge_segments.h
 ///   propose    dark quadrilaterals of the left image                        dark_quadrilateral.h
 ///   match      their upright sides in the right image: corners in space     frame_seed.h
-///   fit        edges to sub-pixel in both images as delivered, one          frame_fit.h
+///   fit        edges to sub-pixel in both images as delivered, one          frame_fitter.h
 ///              rectangle with a border fitted to all of them
 ///   choose     the clearest; the others go with it
 ///
@@ -43,12 +43,18 @@ class EdgeStereoDetector : public Detector {
     FrameFit rough;
     double score;
   };
+  struct Finished {
+    FrameFit fit;
+    WindowEstimate estimate;
+  };
   std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                const EdgeSegments& right_segments,
                                const cv::Mat1b& right_image) const;
   std::optional<Miss> Objection(std::span<const CameraView> views, const FrameFit& fit) const;
   Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
                     StageLog& log) const;
+  std::variant<Finished, Miss> Finish(std::span<const CameraView> views,
+                                      Candidate& candidate) const;
 
   EdgeStereoOptions options_;
   StereoCalibration calibration_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "vision/frame/edge_segments.h"
+
 namespace fenestra {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "vision/frame/dark_quadrilateral.h"
-#include "vision/frame/edge_segments.h"
+#include "vision/frame/edge_segment.h"
 #include "vision/frame/frame_limits.h"
 #include "vision/frame/frame_rectangle.h"
 #include "vision/stereo/rectified_camera.h"

@@ -11,6 +11,7 @@
 #include "vision/stereo/closed_contour.h"
 #include "vision/stereo/depth_image.h"
 #include "vision/stereo/guided_matching.h"
+#include "vision/stereo/rectified_pictures.h"
 #include "vision/stereo/stage_pictures.h"
 #include "vision/stereo/window_rectangle.h"
 

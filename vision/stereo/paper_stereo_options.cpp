@@ -1,16 +1,13 @@
 #include "vision/stereo/paper_stereo_options.h"
 
-#include <numbers>
-
 #include "core/demands.h"
+#include "core/pose.h"
 
 namespace fenestra {
 namespace {
 
 using Options = PaperStereoOptions;
 using Table = ParameterTable<Options>;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 #define FENESTRA_FIELD(field) \
   [](Options & o) -> auto& {  \

@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <boost/math/distributions/chi_squared.hpp>
 
+#include "experiments/calibrated_rig.h"
+
 namespace fenestra {
 namespace {
 

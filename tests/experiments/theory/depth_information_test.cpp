@@ -5,8 +5,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <numbers>
 
+#include "core/pose.h"
 #include "experiments/theory/rgbd_information.h"
 #include "scenes/paper_target.h"
 #include "sim/viewpoint.h"
@@ -14,7 +14,6 @@
 namespace fenestra {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kBorder_m = 0.1;
 
 // A wall of which everything returns dots, and a frame on it.

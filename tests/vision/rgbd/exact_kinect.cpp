@@ -4,16 +4,13 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/io/srgb.h"
+
 namespace fenestra::testing {
 namespace {
 
-double SrgbFromLinear(double x) {
-  return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
-}
-
 uint8_t Encoded(double linear_dn) {
-  const double x = std::clamp(linear_dn / 255.0, 0.0, 1.0);
-  return static_cast<uint8_t>(std::lround(255.0 * SrgbFromLinear(x)));
+  return static_cast<uint8_t>(std::lround(255.0 * SrgbFromLinear(linear_dn / 255.0)));
 }
 
 // Standard normal variates, each the mean of those in a window around it.

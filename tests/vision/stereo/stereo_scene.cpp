@@ -1,14 +1,14 @@
 #include "tests/vision/stereo/stereo_scene.h"
 
 #include <cmath>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <vector>
+
+#include "core/pose.h"
 
 namespace fenestra::testing {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kSamples = 8;  // Squared, in pixels that an edge crosses.
 
 class FrameProbe {

@@ -1,18 +1,11 @@
-#include "experiments/versions.h"
+#include "core/program.h"
 
-#include <fmt/format.h>
-#include <pcl/pcl_config.h>
-#include <sqlite3.h>
 #include <unistd.h>
 
-#include <Eigen/Core>
 #include <fstream>
-#include <opencv2/core/utility.hpp>
-#include <openturns/PlatformInfo.hxx>
 
 #include "core/build_id.h"
-#include "experiments/shell_quoting.h"
-#include "renderers/embree_version.h"
+#include "core/shell_quoting.h"
 
 namespace fenestra {
 
@@ -23,13 +16,6 @@ const std::string& BuildId() {
 
 const char* Version() {
   return FENESTRA_VERSION;
-}
-
-std::string LibraryVersions() {
-  return fmt::format("Embree {}, OpenCV {}, PCL {}, Eigen {}.{}.{}, SQLite {}, OpenTURNS {}",
-                     EmbreeVersion(), cv::getVersionString(), PCL_VERSION_PRETTY,
-                     EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
-                     sqlite3_libversion(), OT::PlatformInfo::GetVersion());
 }
 
 std::string Processor() {

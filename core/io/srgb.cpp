@@ -1,4 +1,4 @@
-#include "sim/srgb.h"
+#include "core/io/srgb.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,7 @@ namespace {
 std::array<float, 255> MakeThresholds() {
   std::array<float, 255> thresholds{};
   for (size_t i = 0; i < thresholds.size(); ++i) {
-    const double v = (static_cast<double>(i) + 0.5) / 255.0;
-    thresholds[i] =
-        static_cast<float>(v <= 12.92 * 0.0031308 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+    thresholds[i] = static_cast<float>(LinearFromSrgb((static_cast<double>(i) + 0.5) / 255.0));
   }
   return thresholds;
 }
@@ -31,9 +29,17 @@ std::array<unsigned char, 4097> MakeFirstCodes(const std::array<float, 255>& thr
 
 }  // namespace
 
+double LinearFromSrgb(double encoded) {
+  return encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+}
+
 double SrgbFromLinear(double linear) {
   const double x = std::clamp(linear, 0.0, 1.0);
   return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+}
+
+double SrgbSlope(double linear) {
+  return linear <= 0.0031308 ? 12.92 : 1.055 / 2.4 * std::pow(linear, 1.0 / 2.4 - 1.0);
 }
 
 cv::Mat1b EncodeSrgb(const cv::Mat1f& linear) {

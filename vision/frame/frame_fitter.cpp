@@ -1,10 +1,11 @@
-#include "vision/frame/frame_fit.h"
+#include "vision/frame/frame_fitter.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "vision/frame/edge_points.h"
 #include "vision/frame/frame_depth.h"
 #include "vision/frame/frame_support.h"
 

@@ -1,19 +1,11 @@
-#include "experiments/calibration_choice.h"
+#include "experiments/calibrated_rig.h"
 
+#include "core/random/random_pose.h"
 #include "experiments/board_calibration.h"
 #include "experiments/theory/calibration_law.h"
 
 namespace fenestra {
 namespace {
-
-Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
-  return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
-}
-
-Pose RandomPose(const RandomStream& stream, double rotation_rad, double translation_m) {
-  return Pose(RotationFromVector(NormalVector(stream.Child("rotation"), rotation_rad)),
-              NormalVector(stream.Child("translation"), translation_m));
-}
 
 StereoCalibration Perturbed(const StereoCalibration& truth, const CalibrationChoice& choice,
                             const RandomStream& stream) {

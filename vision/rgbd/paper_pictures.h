@@ -7,14 +7,9 @@
 
 #include "vision/rgbd/dark_cloud.h"
 #include "vision/rgbd/depth_registration.h"
-#include "vision/rgbd/frame_planes.h"
 #include "vision/rgbd/narf_key_points.h"
 
 namespace fenestra {
-
-/// Depth from its smallest (red) to its largest value (blue) in the image; black where there is
-/// none.
-cv::Mat3b DrawDepth(const cv::Mat1f& depth_m);
 
 /// The cloud's pixels green and dark pixels without depth red over the colour image.
 cv::Mat3b DrawSegmentation(const RegisteredImages& images, const DarkCloud& cloud);
@@ -25,10 +20,5 @@ inline constexpr int kKeyPointPictureScale = 3;
 /// Key points as circles on the cloud's depth; the chosen four as a closed outline.
 cv::Mat3b DrawKeyPoints(const cv::Mat1f& depth_m, const std::vector<KeyPoint>& key_points,
                         const std::optional<std::array<int, 4>>& chosen);
-
-/// What was used of a depth image: the wall green, what is off its plane red, the frame's front
-/// yellow.
-cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
-                       const DepthPointReader& reader);
 
 }  // namespace fenestra

@@ -1,4 +1,4 @@
-#include "scenes/facade_options.h"
+#include "scenes/facade_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -199,11 +199,6 @@ void CheckCovers(const FacadeOptions& o, SizeChecks& checks) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& WallFinishNames() {
-  static const std::vector<std::string> names = {"plaster", "brick", "concrete", "cladding"};
-  return names;
-}
 
 void Validate(const FacadeOptions& options) {
   SizeChecks checks("facade");
