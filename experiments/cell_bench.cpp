@@ -50,15 +50,15 @@ CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
     const DepthTheory theory(sensor);
     return {.sensor = std::move(sensor),
             .calibration = calibration,
-            .calibration_law = {},
+            .calibration_covariance = {},
             .depth_theory = theory};
   }
   const StereoRig built(settings.stereo, streams.rig);
   CalibratedRig calibrated =
       Calibrated(built, settings.stereo_calibration, streams.calibration, cache_);
   return {.sensor = std::move(calibrated.rig),
-          .calibration = calibrated.told,
-          .calibration_law = calibrated.law,
+          .calibration = calibrated.nominal,
+          .calibration_covariance = calibrated.covariance,
           .depth_theory = {}};
 }
 
@@ -88,7 +88,7 @@ SimulatedTrial CellBench::Simulate(int trial_index) const {
     simulated.observation = seen.observation;
     simulated.truth = rig->Truth(world->scene, X_WB);
     simulated.information = InformationOf(*rig, seen, simulated.truth, TargetOf(settings).border_m,
-                                          instrument->calibration_law);
+                                          instrument->calibration_covariance);
     return simulated;
   }
   const auto& sensor = std::get<StructuredLightSensor>(instrument->sensor);

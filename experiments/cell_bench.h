@@ -43,8 +43,8 @@ class CellBench final : public TrialBench {
   struct Instrument {
     std::variant<StereoRig, StructuredLightSensor> sensor;
     SensorCalibration calibration;
-    std::optional<PairMatrix> calibration_law;  ///< For a stereo rig; see CalibratedRig.
-    std::optional<DepthTheory> depth_theory;    ///< For a structured-light sensor.
+    std::optional<PairMatrix> calibration_covariance;  ///< For a stereo rig; see CalibratedRig.
+    std::optional<DepthTheory> depth_theory;           ///< For a structured-light sensor.
   };
 
   Instrument MakeInstrument(const TrialSettings& settings, const TrialStreams& streams) const;
