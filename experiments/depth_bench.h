@@ -10,7 +10,7 @@ namespace fenestra {
 
 /// A structured-light sensor before a large wall of one paint, alone or with a plate of the same
 /// paint in front of it.
-class DepthBench {
+class WallSetup {
  public:
   struct Plate {
     double stand_off_m = 0.0;   ///< Distance of its middle from the wall.
@@ -18,8 +18,8 @@ class DepthBench {
     double turn_rad = 0.0;      ///< About its upright middle.
   };
 
-  DepthBench(const StructuredLightOptions& options, double reflectance_830nm, const Plate& plate,
-             const RandomStream& stream);
+  WallSetup(const StructuredLightOptions& options, double reflectance_830nm, const Plate& plate,
+            const RandomStream& stream);
 
   /// `wall_lx`: illuminance of the wall by daylight; `image`: images of other numbers have other
   /// noise and laser speckle.

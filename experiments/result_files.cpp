@@ -144,7 +144,7 @@ void WriteResultPictures(const ResultStore& store, const fs::path& file, const f
                            .keep_artifacts = [](TrialKey) { return true; },
                            .detectors = std::move(detectors)};
   RunTrials(study, cells, first, options, [&](const FinishedTrial& trial) {
-    WritePictures(PictureFolder(folder, trial.bench.cell()), trial);
+    WritePictures(PictureFolder(folder, trial.runner.cell()), trial);
   });
 }
 
