@@ -9,6 +9,13 @@
 
 namespace fenestra {
 
+std::filesystem::path TemporaryBeside(const std::filesystem::path& file) {
+  static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
+  std::filesystem::path temporary = file;
+  temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
+  return temporary;
+}
+
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes) {
   WriteFileAtomically(file, [bytes](std::ostream& stream) {
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -17,12 +24,10 @@ void WriteFileAtomically(const std::filesystem::path& file, std::string_view byt
 
 void WriteFileAtomically(const std::filesystem::path& file,
                          const std::function<void(std::ostream&)>& write) {
-  static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
   std::error_code error;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
   if (error) throw InputError(file, "its folder cannot be made: " + error.message());
-  std::filesystem::path temporary = file;
-  temporary += ".tmp" + std::to_string(getpid()) + "-" + std::to_string(serial++);
+  const std::filesystem::path temporary = TemporaryBeside(file);
   {
     std::ofstream stream(temporary, std::ios::binary);
     try {

@@ -7,6 +7,10 @@
 
 namespace fenestra {
 
+/// A name beside `file` that no other process and no other thread uses, for what becomes `file` when
+/// it is complete.
+std::filesystem::path TemporaryBeside(const std::filesystem::path& file);
+
 /// Writes `bytes` to a temporary file in the same folder, which is made if it is missing, and
 /// renames it to `file`: readers see the old file or the whole new one. Throws InputError.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);

@@ -9,7 +9,7 @@ namespace fenestra {
 
 /// One fault of a file or an option: where it is, what was found and what is allowed.
 struct InputFault {
-  std::string source;  ///< File path or option name; empty if there is none.
+  std::string source{};  ///< File path or option name; empty if there is none.
   int line = 0;        ///< 1-based; 0 where the fault has no line.
   int column = 0;      ///< 1-based; 0 where the fault has no column.
   std::string message;
@@ -31,5 +31,12 @@ class InputError : public std::runtime_error {
  private:
   std::vector<InputFault> faults_;
 };
+
+/// The options, once their Validate has accepted them: for members that are initialised from them.
+template <typename Options>
+const Options& Validated(const Options& options) {
+  Validate(options);
+  return options;
+}
 
 }  // namespace fenestra

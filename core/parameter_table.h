@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,12 @@ struct ParameterInfo {
   std::optional<ParameterValue> Read(YamlReader& reader, const YAML::Node& node) const;
 };
 
+/// Names a field of a settings struct to a ParameterTable, for reading and for writing:
+/// FENESTRA_FIELD(lens.blur_sigma_px).
+// clang-format off
+#define FENESTRA_FIELD(path) [](auto& settings) -> auto& { return settings.path; }
+// clang-format on
+
 /// The named parameters of a settings struct: the one place where a name, its unit, its range, its
 /// description and the field that it sets stand together. Fields hold SI units; a name's unit is
 /// `si_per_unit` of SI (pi/180 for degrees).
@@ -52,8 +59,19 @@ class ParameterTable {
     double si_per_unit = 1.0;
   };
 
-  ParameterTable& Number(const std::string& name, std::function<double&(Settings&)> field,
-                         Range range, const std::string& description) {
+  /// The way to a field. Made from a lambda without captures that takes constant settings, too, as
+  /// FENESTRA_FIELD is.
+  template <typename Value>
+  struct Field {
+    template <typename Lambda>
+    Field(Lambda lambda) : of_constant(lambda), of(lambda) {}
+
+    const Value& (*of_constant)(const Settings&);
+    Value& (*of)(Settings&);
+  };
+
+  ParameterTable& Number(const std::string& name, Field<double> field, Range range,
+                         const std::string& description) {
     const double scale = range.si_per_unit;
     return Add(
         {.name = name,
@@ -61,16 +79,14 @@ class ParameterTable {
          .type = ParameterInfo::Type::kNumber,
          .min = range.min,
          .max = range.max},
-        [field, scale](const Settings& s) {
-          return ParameterValue(field(const_cast<Settings&>(s)) / scale);
-        },
+        [field, scale](const Settings& s) { return ParameterValue(field.of_constant(s) / scale); },
         [field, scale](Settings& s, const ParameterValue& value) {
-          field(s) = std::get<double>(value) * scale;
+          field.of(s) = std::get<double>(value) * scale;
         });
   }
 
-  ParameterTable& Integer(const std::string& name, std::function<int&(Settings&)> field,
-                          Range range, const std::string& description) {
+  ParameterTable& Integer(const std::string& name, Field<int> field, Range range,
+                          const std::string& description) {
     return Add(
         {.name = name,
          .description = description,
@@ -78,67 +94,67 @@ class ParameterTable {
          .min = range.min,
          .max = range.max},
         [field](const Settings& s) {
-          return ParameterValue(static_cast<double>(field(const_cast<Settings&>(s))));
+          return ParameterValue(static_cast<double>(field.of_constant(s)));
         },
         [field](Settings& s, const ParameterValue& value) {
-          field(s) = static_cast<int>(std::get<double>(value));
+          field.of(s) = static_cast<int>(std::get<double>(value));
         });
   }
 
-  ParameterTable& Switch(const std::string& name, std::function<bool&(Settings&)> field,
+  ParameterTable& Switch(const std::string& name, Field<bool> field,
                          const std::string& description) {
     return Add(
         {.name = name, .description = description, .type = ParameterInfo::Type::kSwitch},
-        [field](const Settings& s) { return ParameterValue(field(const_cast<Settings&>(s))); },
-        [field](Settings& s, const ParameterValue& value) { field(s) = std::get<bool>(value); });
+        [field](const Settings& s) { return ParameterValue(field.of_constant(s)); },
+        [field](Settings& s, const ParameterValue& value) { field.of(s) = std::get<bool>(value); });
   }
 
-  ParameterTable& Choice(const std::string& name, std::function<std::string&(Settings&)> field,
+  ParameterTable& Choice(const std::string& name, Field<std::string> field,
                          std::vector<std::string> choices, const std::string& description) {
     return Add(
         {.name = name,
          .description = description,
          .type = ParameterInfo::Type::kChoice,
          .choices = std::move(choices)},
-        [field](const Settings& s) { return ParameterValue(field(const_cast<Settings&>(s))); },
+        [field](const Settings& s) { return ParameterValue(field.of_constant(s)); },
         [field](Settings& s, const ParameterValue& value) {
-          field(s) = std::get<std::string>(value);
+          field.of(s) = std::get<std::string>(value);
         });
   }
 
   /// A choice whose field is an enumeration: its enumerators, from 0, are called `choices`.
-  template <typename Field>
-  requires std::is_enum_v<std::remove_reference_t<std::invoke_result_t<Field, Settings&>>>
-      ParameterTable& Choice(const std::string& name, Field field, std::vector<std::string> choices,
-                             const std::string& description) {
-    using Enumeration = std::remove_reference_t<std::invoke_result_t<Field, Settings&>>;
+  template <typename Lambda>
+  requires std::is_enum_v<std::remove_reference_t<std::invoke_result_t<Lambda, Settings&>>>
+      ParameterTable& Choice(const std::string& name, Lambda lambda,
+                             std::vector<std::string> choices, const std::string& description) {
+    using Enumeration = std::remove_reference_t<std::invoke_result_t<Lambda, Settings&>>;
+    const Field<Enumeration> field(lambda);
     return Add(
         {.name = name,
          .description = description,
          .type = ParameterInfo::Type::kChoice,
          .choices = choices},
         [field, choices](const Settings& s) {
-          return ParameterValue(choices.at(static_cast<size_t>(field(const_cast<Settings&>(s)))));
+          return ParameterValue(choices.at(static_cast<size_t>(field.of_constant(s))));
         },
         [field, choices](Settings& s, const ParameterValue& value) {
           const auto found =
               std::find(choices.begin(), choices.end(), std::get<std::string>(value));
-          field(s) = static_cast<Enumeration>(found - choices.begin());
+          field.of(s) = static_cast<Enumeration>(found - choices.begin());
         });
   }
 
   /// All parameters of a part of the settings, under the same names.
   template <typename Part>
-  ParameterTable& Adopt(const ParameterTable<Part>& parts,
-                        const std::function<Part&(Settings&)>& part) {
+  ParameterTable& Adopt(const ParameterTable<Part>& parts, std::type_identity_t<Field<Part>> part) {
     for (const ParameterInfo& info : parts.infos()) {
       Add(
           info,
           [parts, part, name = info.name](const Settings& s) {
-            return parts.Get(part(const_cast<Settings&>(s)), name);
+            return parts.Get(part.of_constant(s), name);
           },
           [parts, part, name = info.name](Settings& s, const ParameterValue& value) {
-            parts.Set(part(s), name, value);
+            parts.Set(part.of(s), name, value);
           });
     }
     return *this;

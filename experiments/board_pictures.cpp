@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
-#include <set>
 
+#include "core/faults.h"
 #include "core/image_io.h"
-#include "core/input_error.h"
 #include "vision/calibration/board_finder.h"
 
 namespace fenestra {
@@ -18,62 +19,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Digits compare as numbers.
+bool IsDigit(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+// Without the zeros before other digits: "left03" becomes "left3". strverscmp takes "03" for a
+// fraction, which comes before every whole number.
+std::string WithoutPadding(const std::string& name) {
+  std::string bare;
+  for (size_t i = 0; i < name.size(); ++i) {
+    const bool pads = name[i] == '0' && (bare.empty() || !IsDigit(bare.back())) &&
+                      i + 1 < name.size() && IsDigit(name[i + 1]);
+    if (!pads) bare += name[i];
+  }
+  return bare;
+}
+
+// Whether `a` comes before `b` where digits compare as numbers.
 bool NaturallyLess(const std::string& a, const std::string& b) {
-  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
-  size_t i = 0;
-  size_t j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
-      size_t i_end = i;
-      size_t j_end = j;
-      while (i_end < a.size() && is_digit(a[i_end])) ++i_end;
-      while (j_end < b.size() && is_digit(b[j_end])) ++j_end;
-      std::string x = a.substr(i, i_end - i);
-      std::string y = b.substr(j, j_end - j);
-      x.erase(0, std::min(x.find_first_not_of('0'), x.size() - 1));
-      y.erase(0, std::min(y.find_first_not_of('0'), y.size() - 1));
-      if (x.size() != y.size()) return x.size() < y.size();
-      if (x != y) return x < y;
-      i = i_end;
-      j = j_end;
-      continue;
-    }
-    if (a[i] != b[j]) return a[i] < b[j];
-    ++i;
-    ++j;
-  }
-  return a.size() - i < b.size() - j;
+  const int order = strverscmp(WithoutPadding(a).c_str(), WithoutPadding(b).c_str());
+  // "view1" and "view01" are in some order, always the same.
+  return order != 0 ? order < 0 : a < b;
 }
 
-// * stands for any run of characters, ? for one.
-bool Matches(std::string_view pattern, std::string_view text) {
-  if (pattern.empty()) return text.empty();
-  if (pattern.front() == '*') {
-    return Matches(pattern.substr(1), text) || (!text.empty() && Matches(pattern, text.substr(1)));
-  }
-  if (text.empty()) return false;
-  return (pattern.front() == '?' || pattern.front() == text.front()) &&
-         Matches(pattern.substr(1), text.substr(1));
-}
-
-bool IsImage(const fs::path& file) {
-  static const std::set<std::string> endings = {".png", ".jpg",  ".jpeg", ".bmp",
-                                                ".tif", ".tiff", ".pgm",  ".ppm"};
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return endings.contains(ending);
-}
-
-std::vector<fs::path> FilesIn(const fs::path& folder, const std::string& pattern) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const fs::path& file = entry.path();
-    const bool wanted =
-        pattern.empty() ? IsImage(file) : Matches(pattern, file.filename().string());
-    if (wanted && entry.is_regular_file()) files.push_back(file);
+// The files of a folder, or those that match a pattern; none if the folder cannot be read.
+std::vector<std::string> FilesIn(const std::string& folder_or_pattern) {
+  std::vector<std::string> files;
+  try {
+    cv::glob(folder_or_pattern, files);
+  } catch (const cv::Exception&) {
+    files.clear();
   }
   return files;
 }
@@ -83,10 +58,9 @@ std::vector<fs::path> FilesIn(const fs::path& folder, const std::string& pattern
 std::vector<std::string> NumbersIn(const fs::path& file) {
   std::vector<std::string> numbers;
   bool inside = false;
-  for (const char c : file.stem().string()) {
-    const bool digit = std::isdigit(static_cast<unsigned char>(c)) != 0;
+  for (const char c : WithoutPadding(file.stem().string())) {
+    const bool digit = IsDigit(c);
     if (digit && !inside) numbers.emplace_back();
-    if (digit && numbers.back() == "0") numbers.back().clear();
     if (digit) numbers.back() += c;
     inside = digit;
   }
@@ -140,30 +114,27 @@ cv::Mat1b ReadBoardPicture(const fs::path& file) {
 }  // namespace
 
 std::vector<fs::path> ImageFiles(const std::vector<std::string>& arguments) {
-  std::vector<fs::path> files;
+  std::vector<std::string> files;
   for (const std::string& argument : arguments) {
     const fs::path path(argument);
-    std::vector<fs::path> found;
+    std::vector<std::string> found;
     if (fs::is_directory(path)) {
-      found = FilesIn(path, "");
+      found = FilesIn(argument);
+      // By their endings: an image that cannot be read has to be named, not passed over.
+      std::erase_if(found, [](const std::string& file) { return !cv::haveImageWriter(file); });
       if (found.empty()) throw InputError(argument, "there are no images in this folder");
-    } else if (argument.find_first_of("*?") != std::string::npos && !fs::exists(path)) {
-      const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-      found = FilesIn(folder, path.filename().string());
-      if (found.empty()) throw InputError(argument, "no file matches this pattern");
     } else if (fs::exists(path)) {
-      found = {path};
+      found = {argument};
+    } else if (argument.find_first_of("*?") != std::string::npos) {
+      found = FilesIn(argument);
+      if (found.empty()) throw InputError(argument, "no file matches this pattern");
     } else {
       throw InputError(argument, "there is no such file");
     }
     files.insert(files.end(), found.begin(), found.end());
   }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    if (NaturallyLess(a.string(), b.string())) return true;
-    // "view1" and "view01" are in some order, always the same.
-    return !NaturallyLess(b.string(), a.string()) && a < b;
-  });
-  return files;
+  std::sort(files.begin(), files.end(), NaturallyLess);
+  return {files.begin(), files.end()};
 }
 
 std::vector<PicturePair> PairUp(const std::vector<fs::path>& left,
@@ -182,7 +153,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
                                               const CalibrationBoard& board,
                                               const AdjustmentOptions& adjustment) {
   Validate(board);
-  std::vector<InputFault> faults;
+  Faults faults;
   std::vector<NamedView> views;
   std::vector<LeftOutView> without_board;
   cv::Size size;
@@ -208,7 +179,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
         (is_right ? view.corners.right : view.corners.left) =
             std::get<std::vector<BoardCorner>>(std::move(sighting));
       } catch (const InputError& error) {
-        faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+        for (const InputFault& fault : error.faults()) faults.AddFault(fault);
       }
     }
     if (reason.empty()) {
@@ -217,7 +188,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
       without_board.push_back({view.name, reason});
     }
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.ThrowIfAny();
   if (views.empty() && !without_board.empty()) {
     throw InputError(
         "calibration",

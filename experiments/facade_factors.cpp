@@ -12,9 +12,7 @@ using Table = ParameterTable<TrialSettings>;
 const Table::Range kUnit{0.0, 1.0};
 
 // The field of the settings that a factor stands for.
-// clang-format off
-#define FIELD(path) [](TrialSettings& s) -> auto& { return s.path; }
-// clang-format on
+#define FIELD(path) FENESTRA_FIELD(path)
 
 void AddWall(Table& t) {
   t.Number("wall_thickness_m", FIELD(facade.wall.thickness_m), {0.01, 2.0},

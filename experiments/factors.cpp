@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
-
 #include "core/check.h"
 #include "core/pose.h"
 #include "experiments/facade_factors.h"
@@ -18,9 +16,7 @@ constexpr double kMicro = 1e-6;
 constexpr double kPercent = 1e-2;
 
 // The field of the settings that a factor stands for.
-// clang-format off
-#define FIELD(path) [](TrialSettings& s) -> auto& { return s.path; }
-// clang-format on
+#define FIELD(path) FENESTRA_FIELD(path)
 
 void AddViewpoint(Table& t) {
   t.Number("distance_m", FIELD(viewpoint.distance_m), {0.1, 100.0},
@@ -105,34 +101,22 @@ void AddStereoCameras(Table& t) {
                "other pixel.");
 }
 
-void AddMotion(Table& t, const std::string& sensor, RigMotion& (*of)(TrialSettings&)) {
-  struct Axis {
-    const char* name;
-    const char* description;
-  };
-  const std::array<Axis, 3> speeds = {
-      Axis{"right", "Velocity of the rig to its right."},
-      Axis{"down", "Velocity of the rig downwards, along its own axis."},
-      Axis{"forward", "Velocity of the rig in the direction in which it looks."}};
-  for (size_t axis = 0; axis < speeds.size(); ++axis) {
-    t.Number(
-        sensor + "_speed_" + speeds[axis].name + "_m_s",
-        [of, axis](TrialSettings& s) -> double& {
-          return of(s).velocity_B[static_cast<int>(axis)];
-        },
-        {-100.0, 100.0}, speeds[axis].description);
-  }
-  const std::array<Axis, 3> turns = {Axis{"pitch", "Rate at which the rig turns upwards."},
-                                     Axis{"yaw", "Rate at which the rig turns to the right."},
-                                     Axis{"roll", "Rate at which the rig turns clockwise."}};
-  for (size_t axis = 0; axis < turns.size(); ++axis) {
-    t.Number(
-        sensor + "_" + turns[axis].name + "_rate_deg_s",
-        [of, axis](TrialSettings& s) -> double& {
-          return of(s).angular_velocity_B[static_cast<int>(axis)];
-        },
-        {-2000.0, 2000.0, kDegree}, turns[axis].description);
-  }
+void AddMotion(Table& t, const std::string& sensor, Table::Field<RigMotion> of) {
+  ParameterTable<RigMotion> motion;
+  motion
+      .Number(sensor + "_speed_right_m_s", FIELD(velocity_B.x()), {-100.0, 100.0},
+              "Velocity of the rig to its right.")
+      .Number(sensor + "_speed_down_m_s", FIELD(velocity_B.y()), {-100.0, 100.0},
+              "Velocity of the rig downwards, along its own axis.")
+      .Number(sensor + "_speed_forward_m_s", FIELD(velocity_B.z()), {-100.0, 100.0},
+              "Velocity of the rig in the direction in which it looks.")
+      .Number(sensor + "_pitch_rate_deg_s", FIELD(angular_velocity_B.x()),
+              {-2000.0, 2000.0, kDegree}, "Rate at which the rig turns upwards.")
+      .Number(sensor + "_yaw_rate_deg_s", FIELD(angular_velocity_B.y()), {-2000.0, 2000.0, kDegree},
+              "Rate at which the rig turns to the right.")
+      .Number(sensor + "_roll_rate_deg_s", FIELD(angular_velocity_B.z()),
+              {-2000.0, 2000.0, kDegree}, "Rate at which the rig turns clockwise.");
+  t.Adopt<RigMotion>(motion, of);
 }
 
 void AddStereoRig(Table& t) {

@@ -1,55 +1,21 @@
 #include "experiments/store.h"
 
+#include <SQLiteCpp/SQLiteCpp.h>
+#include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
 #include <fstream>
 #include <mutex>
 
+#include "core/atomic_file.h"
 #include "core/check.h"
 #include "core/input_error.h"
-#include "experiments/sqlite_database.h"
 #include "experiments/store_rows.h"
 
 namespace fenestra {
 namespace fs = std::filesystem;
 namespace {
-
-constexpr char kRunColumns[] = "shard, started_utc, ended_utc, jobs, host, processor, command";
-
-SqliteStatement PrepareInsertRun(SqliteDatabase& database) {
-  return database.Prepare(
-      fmt::format("INSERT INTO runs ({}) VALUES (?, ?, ?, ?, ?, ?, ?)", kRunColumns));
-}
-
-void InsertRun(SqliteStatement& insert, const RunEntry& run) {
-  insert.Reset();
-  insert.Bind(run.shard).Bind(run.started_utc);
-  if (run.ended_utc) {
-    insert.Bind(*run.ended_utc);
-  } else {
-    insert.BindNull();
-  }
-  insert.Bind(int64_t{run.jobs}).Bind(run.host).Bind(run.processor).Bind(run.command).Run();
-}
-
-SqliteStatement PrepareSelectRuns(SqliteDatabase& database) {
-  return database.Prepare(fmt::format("SELECT {} FROM runs ORDER BY run", kRunColumns));
-}
-
-RunEntry ReadRun(SqliteStatement& select) {
-  RunEntry run;
-  run.shard = select.ReadText();
-  run.started_utc = select.ReadText();
-  run.ended_utc = select.ReadOptionalText();
-  run.jobs = static_cast<int>(select.ReadInteger());
-  run.host = select.ReadText();
-  run.processor = select.ReadText();
-  run.command = select.ReadText();
-  return run;
-}
 
 fs::path JournalOf(const fs::path& file) {
   return file.string() + "-journal";
@@ -81,50 +47,77 @@ void CheckHeader(const fs::path& file) {
   }
 }
 
+/// What `use` returns. An error of SQLite becomes an InputError that names the file.
+template <typename Use>
+auto NamingFile(const fs::path& file, const Use& use) {
+  try {
+    return use();
+  } catch (const SQLite::Exception& error) {
+    throw InputError(file,
+                     fmt::format("SQLite says: {} (code {})", error.what(), error.getErrorCode()));
+  }
+}
+
+SQLite::Database OpenDatabase(const fs::path& file, int flags) {
+  constexpr int kBusyTimeout_ms = 60'000;  // Readers may hold the file while they read.
+  // An absolute path, since SQLite gives names such as ":memory:" a meaning of their own.
+  return {fs::absolute(file).string(), flags | SQLite::OPEN_NOMUTEX, kBusyTimeout_ms};
+}
+
 /// Throws InputError unless the file is a sound store.
 void CheckStore(const fs::path& file) {
   CheckHeader(file);
-  if (fs::exists(JournalOf(file))) {
-    // A run may have been killed while it wrote. A reader could not roll that trial back.
-    SqliteDatabase(file, SqliteDatabase::Mode::kReadWrite).Execute("SELECT count(*) FROM meta");
-  }
-  SqliteDatabase database(file, SqliteDatabase::Mode::kReadOnly);
-  SqliteStatement check = database.Prepare("PRAGMA integrity_check(1)");
-  check.Step();
-  if (const std::string report = check.ReadText(); report != "ok") {
-    throw InputError(file, "is damaged: " + report);
-  }
-  PrepareSelect(database);  // Throws where a column is missing.
-  PrepareSelectRuns(database);
+  NamingFile(file, [&file] {
+    if (fs::exists(JournalOf(file))) {
+      // A run may have been killed while it wrote. A reader could not roll that trial back.
+      OpenDatabase(file, SQLite::OPEN_READWRITE).exec("SELECT count(*) FROM meta");
+    }
+    SQLite::Database database = OpenDatabase(file, SQLite::OPEN_READONLY);
+    const std::string report = database.execAndGet("PRAGMA integrity_check(1)").getString();
+    if (report != "ok") throw InputError(file, "is damaged: " + report);
+    PrepareSelect(database);  // Throws where a column is missing.
+    PrepareSelectRuns(database);
+  });
 }
 
 void WriteEmptyStore(const fs::path& file, const StoreMetadata& metadata) {
-  SqliteDatabase database(file, SqliteDatabase::Mode::kCreate);
-  SqliteTransaction transaction(database);
-  database.Execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};",
-                               kStoreApplicationId, kStoreSchemaVersion));
-  database.Execute(kStoreSchema);
-  SqliteStatement insert = database.Prepare("INSERT OR REPLACE INTO meta VALUES (?, ?)");
-  for (const auto& [key, value] : metadata) insert.Bind(key).Bind(value).Run();
-  insert.Bind("schema_version").Bind(std::to_string(kStoreSchemaVersion)).Run();
-  transaction.Commit();
-}
-
-fs::path TemporaryBeside(const fs::path& file) {
-  static std::atomic<unsigned> serial = 0;  // Two threads may write to one folder.
-  return file.string() + fmt::format(".tmp{}-{}", getpid(), serial++);
+  SQLite::Database database = OpenDatabase(file, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+  SQLite::Transaction transaction(database, SQLite::TransactionBehavior::IMMEDIATE);
+  database.exec(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};",
+                            kStoreApplicationId, kStoreSchemaVersion));
+  database.exec(kStoreSchema);
+  StoreMetadata all = metadata;
+  all["schema_version"] = std::to_string(kStoreSchemaVersion);
+  SQLite::Statement insert(database, "INSERT INTO meta VALUES (?, ?)");
+  for (const auto& [key, value] : all) {
+    SQLite::bind(insert, key, value);
+    insert.exec();
+    insert.reset();
+  }
+  transaction.commit();
 }
 
 }  // namespace
 
 struct ResultStore::Connection {
-  Connection(const fs::path& path, SqliteDatabase::Mode mode) : file(path), database(path, mode) {
-    if (mode == SqliteDatabase::Mode::kReadOnly) return;
-    database.Execute("PRAGMA synchronous = EXTRA");
-    insert = PrepareInsert(database);
+  Connection(const fs::path& path, int flags) : file(path), database(OpenDatabase(path, flags)) {
+    if (flags == SQLite::OPEN_READONLY) return;
+    database.exec("PRAGMA synchronous = EXTRA");
+    insert.emplace(PrepareInsert(database));
   }
 
-  TrialRecord Read(SqliteStatement& select) const {
+  static ResultStore Open(const fs::path& file, int flags) {
+    return NamingFile(file, [&] { return ResultStore(std::make_unique<Connection>(file, flags)); });
+  }
+
+  /// What `use` returns, while nobody else uses the connection.
+  template <typename Use>
+  auto Alone(const Use& use) {
+    const std::lock_guard lock(mutex);
+    return NamingFile(file, use);
+  }
+
+  TrialRecord Read(const SQLite::Statement& select) const {
     try {
       return ReadRow(select);
     } catch (const InputError&) {
@@ -136,8 +129,8 @@ struct ResultStore::Connection {
 
   fs::path file;
   std::mutex mutex;  ///< Guards everything below.
-  SqliteDatabase database;
-  std::optional<SqliteStatement> insert;  ///< Absent in a store that is open for reading only.
+  SQLite::Database database;
+  std::optional<SQLite::Statement> insert;  ///< Absent in a store that is open for reading only.
 };
 
 ResultStore::ResultStore(std::unique_ptr<Connection> connection)
@@ -157,7 +150,7 @@ ResultStore ResultStore::Create(const fs::path& file, const StoreMetadata& metad
   if (error) throw InputError(file, "its folder cannot be made: " + error.message());
   const fs::path temporary = TemporaryBeside(file);
   try {
-    WriteEmptyStore(temporary, metadata);
+    NamingFile(temporary, [&] { WriteEmptyStore(temporary, metadata); });
     // The journal of a run that was killed and whose store was then deleted by hand: SQLite would
     // take it for the new file's and play it back.
     fs::remove(JournalOf(file));
@@ -167,31 +160,32 @@ ResultStore ResultStore::Create(const fs::path& file, const StoreMetadata& metad
     fs::remove(JournalOf(temporary), error);
     throw InputError(file, fmt::format("cannot be made: {}", exception.what()));
   }
-  return ResultStore(std::make_unique<Connection>(file, SqliteDatabase::Mode::kReadWrite));
+  return Connection::Open(file, SQLite::OPEN_READWRITE);
 }
 
 ResultStore ResultStore::Resume(const fs::path& file) {
   CheckStore(file);
-  return ResultStore(std::make_unique<Connection>(file, SqliteDatabase::Mode::kReadWrite));
+  return Connection::Open(file, SQLite::OPEN_READWRITE);
 }
 
 ResultStore ResultStore::OpenReadOnly(const fs::path& file) {
   CheckStore(file);
-  return ResultStore(std::make_unique<Connection>(file, SqliteDatabase::Mode::kReadOnly));
+  return Connection::Open(file, SQLite::OPEN_READONLY);
 }
 
 void ResultStore::AddTrials(std::span<const std::vector<TrialRecord>> trials) {
-  const std::lock_guard lock(connection_->mutex);
-  FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
-  SqliteTransaction transaction(connection_->database);
-  for (const std::vector<TrialRecord>& rows : trials) {
-    for (const TrialRecord& row : rows) {
-      FENESTRA_CHECK(row.cell == rows.front().cell && row.trial == rows.front().trial,
-                     "rows of two trials");
-      InsertRow(*connection_->insert, row);
+  connection_->Alone([&] {
+    FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
+    SQLite::Transaction transaction(connection_->database, SQLite::TransactionBehavior::IMMEDIATE);
+    for (const std::vector<TrialRecord>& rows : trials) {
+      for (const TrialRecord& row : rows) {
+        FENESTRA_CHECK(row.cell == rows.front().cell && row.trial == rows.front().trial,
+                       "rows of two trials");
+        InsertRow(*connection_->insert, row);
+      }
     }
-  }
-  transaction.Commit();
+    transaction.commit();
+  });
 }
 
 void ResultStore::AddTrial(std::span<const TrialRecord> rows) {
@@ -200,22 +194,22 @@ void ResultStore::AddTrial(std::span<const TrialRecord> rows) {
 }
 
 std::vector<TrialKey> ResultStore::FinishedTrials() const {
-  const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select =
-      connection_->database.Prepare("SELECT DISTINCT cell, trial FROM trials ORDER BY cell, trial");
-  std::vector<TrialKey> trials;
-  while (select.Step()) {
-    const auto cell = static_cast<int>(select.ReadInteger());
-    const auto trial = static_cast<int>(select.ReadInteger());
-    trials.push_back({cell, trial});
-  }
-  return trials;
+  return connection_->Alone([this] {
+    SQLite::Statement select(connection_->database,
+                             "SELECT DISTINCT cell, trial FROM trials ORDER BY cell, trial");
+    std::vector<TrialKey> trials;
+    while (select.executeStep()) {
+      trials.push_back({select.getColumn(0).getInt(), select.getColumn(1).getInt()});
+    }
+    return trials;
+  });
 }
 
 void ResultStore::ForEachRow(const std::function<void(const TrialRecord&)>& visit) const {
-  const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select = PrepareSelect(connection_->database);
-  while (select.Step()) visit(connection_->Read(select));
+  connection_->Alone([&] {
+    SQLite::Statement select = PrepareSelect(connection_->database);
+    while (select.executeStep()) visit(connection_->Read(select));
+  });
 }
 
 std::vector<TrialRecord> ResultStore::Rows() const {
@@ -225,64 +219,67 @@ std::vector<TrialRecord> ResultStore::Rows() const {
 }
 
 std::vector<TrialRecord> ResultStore::RowsOf(TrialKey key) const {
-  const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select = PrepareSelect(connection_->database, "WHERE cell = ? AND trial = ?");
-  select.Bind(int64_t{key.cell}).Bind(int64_t{key.trial});
-  std::vector<TrialRecord> rows;
-  while (select.Step()) rows.push_back(connection_->Read(select));
-  return rows;
+  return connection_->Alone([&] {
+    SQLite::Statement select = PrepareSelect(connection_->database, "WHERE cell = ? AND trial = ?");
+    SQLite::bind(select, key.cell, key.trial);
+    std::vector<TrialRecord> rows;
+    while (select.executeStep()) rows.push_back(connection_->Read(select));
+    return rows;
+  });
 }
 
 std::vector<DetectorTally> ResultStore::Tallies() const {
-  const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select = connection_->database.Prepare(
-      "SELECT detector, sum(truth_x_m IS NOT NULL AND outcome <> 'out_of_view'), "
-      "sum(outcome = 'hit') FROM trials GROUP BY detector ORDER BY detector");
-  std::vector<DetectorTally> tallies;
-  while (select.Step()) {
-    DetectorTally tally;
-    tally.detector = select.ReadText();
-    tally.in_view = select.ReadInteger();
-    tally.hits = select.ReadInteger();
-    tallies.push_back(std::move(tally));
-  }
-  return tallies;
+  return connection_->Alone([this] {
+    SQLite::Statement select(
+        connection_->database,
+        "SELECT detector, sum(truth_x_m IS NOT NULL AND outcome <> 'out_of_view'), "
+        "sum(outcome = 'hit') FROM trials GROUP BY detector ORDER BY detector");
+    std::vector<DetectorTally> tallies;
+    while (select.executeStep()) {
+      tallies.push_back({.detector = select.getColumn(0).getString(),
+                         .in_view = select.getColumn(1).getInt64(),
+                         .hits = select.getColumn(2).getInt64()});
+    }
+    return tallies;
+  });
 }
 
 int64_t ResultStore::AddRun(const RunEntry& run) {
-  const std::lock_guard lock(connection_->mutex);
-  FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
-  SqliteStatement insert = PrepareInsertRun(connection_->database);
-  InsertRun(insert, run);
-  return connection_->database.LastRowId();
+  return connection_->Alone([&] {
+    FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
+    SQLite::Statement insert = PrepareInsertRun(connection_->database);
+    InsertRun(insert, run);
+    return connection_->database.getLastInsertRowid();
+  });
 }
 
 void ResultStore::SetRunEnd(int64_t run, const std::string& ended_utc) {
-  const std::lock_guard lock(connection_->mutex);
-  FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
-  connection_->database.Prepare("UPDATE runs SET ended_utc = ? WHERE run = ?")
-      .Bind(ended_utc)
-      .Bind(run)
-      .Run();
+  connection_->Alone([&] {
+    FENESTRA_CHECK(connection_->insert.has_value(), "the store is open for reading only");
+    SQLite::Statement update(connection_->database, "UPDATE runs SET ended_utc = ? WHERE run = ?");
+    SQLite::bind(update, ended_utc, run);
+    update.exec();
+  });
 }
 
 std::vector<RunEntry> ResultStore::Runs() const {
-  const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select = PrepareSelectRuns(connection_->database);
-  std::vector<RunEntry> runs;
-  while (select.Step()) runs.push_back(ReadRun(select));
-  return runs;
+  return connection_->Alone([this] {
+    SQLite::Statement select = PrepareSelectRuns(connection_->database);
+    std::vector<RunEntry> runs;
+    while (select.executeStep()) runs.push_back(ReadRun(select));
+    return runs;
+  });
 }
 
 StoreMetadata ResultStore::Metadata() const {
-  const std::lock_guard lock(connection_->mutex);
-  SqliteStatement select = connection_->database.Prepare("SELECT key, value FROM meta");
-  StoreMetadata metadata;
-  while (select.Step()) {
-    std::string key = select.ReadText();
-    metadata[std::move(key)] = select.ReadText();
-  }
-  return metadata;
+  return connection_->Alone([this] {
+    SQLite::Statement select(connection_->database, "SELECT key, value FROM meta");
+    StoreMetadata metadata;
+    while (select.executeStep()) {
+      metadata[select.getColumn(0).getString()] = select.getColumn(1).getString();
+    }
+    return metadata;
+  });
 }
 
 }  // namespace fenestra

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "core/check.h"
 #include "experiments/record_json.h"
 
 namespace fenestra {
@@ -17,57 +20,89 @@ constexpr char kColumns[] =
     "estimate_corners_m, estimate_covariance_m2, "
     "truth_x_m, truth_y_m, truth_z_m, bound_covariance_m2, stage_times_s";
 constexpr int kColumnCount = 23;
+constexpr char kRunColumns[] = "shard, started_utc, ended_utc, jobs, host, processor, command";
 constexpr char kErrorColumns[] =
     "centroid_error_x_mm, centroid_error_y_mm, centroid_error_z_mm, centroid_error_mm";
 constexpr int kErrorColumnCount = 4;
 
-void BindVector(SqliteStatement& insert, const std::optional<Eigen::Vector3d>& v) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (v) {
-      insert.Bind((*v)[axis]);
+// The parameters of a statement, in order.
+class Parameters {
+ public:
+  explicit Parameters(SQLite::Statement& statement) : statement_(statement) {
+    statement_.tryReset();  // What it returns is the error of the last step.
+  }
+
+  void Bind(int64_t value) { statement_.bind(next_++, value); }
+  void Bind(double value) {
+    FENESTRA_CHECK(!std::isnan(value), "SQLite would store NaN as NULL");
+    statement_.bind(next_++, value);
+  }
+  void Bind(const std::string& value) { statement_.bind(next_++, value); }
+  void Bind(const Eigen::Vector3d& v) {
+    for (const double coordinate : v) Bind(coordinate);
+  }
+  void Bind(const Eigen::Matrix3d& matrix) { Bind(MatrixToJson(matrix)); }
+  void BindNulls(int count) {
+    for (int i = 0; i < count; ++i) statement_.bind(next_++);
+  }
+  template <typename Value>
+  void Bind(const std::optional<Value>& value) {
+    if (value) {
+      Bind(*value);
     } else {
-      insert.BindNull();
+      BindNulls(std::is_same_v<Value, Eigen::Vector3d> ? 3 : 1);
     }
   }
-}
 
-std::optional<Eigen::Vector3d> ReadVector(SqliteStatement& select) {
-  const auto x = select.ReadNumber();
-  const auto y = select.ReadNumber();
-  const auto z = select.ReadNumber();
-  if (!x || !y || !z) return std::nullopt;
-  return Eigen::Vector3d(*x, *y, *z);
-}
+ private:
+  SQLite::Statement& statement_;
+  int next_ = 1;
+};
 
-void BindMatrix(SqliteStatement& insert, const std::optional<Eigen::Matrix3d>& matrix) {
-  if (matrix) {
-    insert.Bind(MatrixToJson(*matrix));
-  } else {
-    insert.BindNull();
+// The columns of the current row, in order.
+class Columns {
+ public:
+  explicit Columns(const SQLite::Statement& select) : select_(select) {}
+
+  int64_t Integer() { return Next().getInt64(); }
+  std::string Text() { return Next().getString(); }
+  std::optional<std::string> OptionalText() {
+    const SQLite::Column column = Next();
+    return column.isNull() ? std::nullopt : std::optional(column.getString());
   }
-}
+  std::optional<Eigen::Vector3d> Vector() {
+    const std::array<SQLite::Column, 3> v = {Next(), Next(), Next()};
+    if (v[0].isNull() || v[1].isNull() || v[2].isNull()) return std::nullopt;
+    return Eigen::Vector3d(v[0].getDouble(), v[1].getDouble(), v[2].getDouble());
+  }
+  std::optional<Eigen::Matrix3d> Matrix() {
+    const auto text = OptionalText();
+    return text ? std::optional(MatrixFromJson(*text)) : std::nullopt;
+  }
 
-std::optional<Eigen::Matrix3d> ReadMatrix(SqliteStatement& select) {
-  const auto text = select.ReadOptionalText();
-  return text ? std::optional(MatrixFromJson(*text)) : std::nullopt;
-}
+ private:
+  SQLite::Column Next() { return select_.getColumn(next_++); }
 
-void BindEstimate(SqliteStatement& insert, const std::optional<WindowEstimate>& estimate) {
+  const SQLite::Statement& select_;
+  int next_ = 0;
+};
+
+void BindEstimate(Parameters& insert, const std::optional<WindowEstimate>& estimate) {
   if (!estimate) {
-    for (int column = 0; column < 8; ++column) insert.BindNull();
+    insert.BindNulls(8);
     return;
   }
-  BindVector(insert, estimate->p_CO);
-  BindVector(insert, estimate->normal_C);
+  insert.Bind(estimate->p_CO);
+  insert.Bind(estimate->normal_C);
   insert.Bind(CornersToJson(estimate->p_CV));
-  BindMatrix(insert, estimate->covariance_C);
+  insert.Bind(estimate->covariance_C);
 }
 
-std::optional<WindowEstimate> ReadEstimate(SqliteStatement& select) {
-  const auto p_CO = ReadVector(select);
-  const auto normal_C = ReadVector(select);
-  const auto corners = select.ReadOptionalText();
-  const auto covariance_C = ReadMatrix(select);
+std::optional<WindowEstimate> ReadEstimate(Columns& row) {
+  const auto p_CO = row.Vector();
+  const auto normal_C = row.Vector();
+  const auto corners = row.OptionalText();
+  const auto covariance_C = row.Matrix();
   if (!p_CO || !normal_C || !corners) return std::nullopt;
   WindowEstimate estimate;
   estimate.p_CO = *p_CO;
@@ -77,15 +112,15 @@ std::optional<WindowEstimate> ReadEstimate(SqliteStatement& select) {
   return estimate;
 }
 
-SensorKind ParseSensor(const std::string& word) {
-  for (const SensorKind sensor : {SensorKind::kStereo, SensorKind::kRgbd}) {
-    if (word == ToString(sensor)) return sensor;
-  }
-  throw std::runtime_error("unknown sensor " + word);
+SensorKind ReadSensor(Columns& row) {
+  const std::string word = row.Text();
+  const auto sensor = ParseSensorKind(word);
+  if (!sensor) throw std::runtime_error("unknown sensor " + word);
+  return *sensor;
 }
 
-int ReadIndex(SqliteStatement& select) {
-  const int64_t index = select.ReadInteger();
+int ReadIndex(Columns& row) {
+  const int64_t index = row.Integer();
   if (index < 0 || index > std::numeric_limits<int>::max()) {
     throw std::runtime_error(fmt::format("cell or trial {}", index));
   }
@@ -103,59 +138,101 @@ void RequireSense(const Score& score) {
 
 }  // namespace
 
-SqliteStatement PrepareInsert(SqliteDatabase& database) {
+SQLite::Statement PrepareInsert(const SQLite::Database& database) {
   std::string marks = "?";
   for (int i = 1; i < kColumnCount + kErrorColumnCount; ++i) marks += ", ?";
-  return database.Prepare(
-      fmt::format("INSERT INTO trials ({}, {}) VALUES ({})", kColumns, kErrorColumns, marks));
+  return SQLite::Statement(database, fmt::format("INSERT INTO trials ({}, {}) VALUES ({})",
+                                                 kColumns, kErrorColumns, marks));
 }
 
-void InsertRow(SqliteStatement& insert, const TrialRecord& record) {
+void InsertRow(SQLite::Statement& statement, const TrialRecord& record) {
   const Score& score = record.score;
-  insert.Reset();
-  insert.Bind(int64_t{record.cell}).Bind(int64_t{record.trial});
-  insert.Bind(record.detector).Bind(record.part).Bind(ToString(record.sensor));
-  insert.Bind(FactorsToJson(record.levels)).Bind(FactorsToJson(record.drawn));
-  insert.Bind(ToString(score.outcome)).Bind(score.reason).Bind(score.detail);
+  Parameters insert(statement);
+  insert.Bind(int64_t{record.cell});
+  insert.Bind(int64_t{record.trial});
+  insert.Bind(record.detector);
+  insert.Bind(record.part);
+  insert.Bind(ToString(record.sensor));
+  insert.Bind(FactorsToJson(record.levels));
+  insert.Bind(FactorsToJson(record.drawn));
+  insert.Bind(ToString(score.outcome));
+  insert.Bind(score.reason);
+  insert.Bind(score.detail);
   BindEstimate(insert, score.estimate);
-  BindVector(insert, score.truth_p_CO);
-  BindMatrix(insert, record.bound_C);
+  insert.Bind(score.truth_p_CO);
+  insert.Bind(record.bound_C);
   insert.Bind(StageTimesToJson(record.stages));
   if (const auto error = score.CentroidError_C()) {
-    BindVector(insert, Eigen::Vector3d(1e3 * *error));
+    insert.Bind(Eigen::Vector3d(1e3 * *error));
     insert.Bind(1e3 * error->norm());
   } else {
-    for (int column = 0; column < kErrorColumnCount; ++column) insert.BindNull();
+    insert.BindNulls(kErrorColumnCount);
   }
-  insert.Run();
+  statement.exec();
 }
 
-SqliteStatement PrepareSelect(SqliteDatabase& database, const std::string& condition) {
-  return database.Prepare(
+SQLite::Statement PrepareSelect(const SQLite::Database& database, const std::string& condition) {
+  return SQLite::Statement(
+      database,
       fmt::format("SELECT {} FROM trials {} ORDER BY cell, trial, detector", kColumns, condition));
 }
 
-TrialRecord ReadRow(SqliteStatement& select) {
+TrialRecord ReadRow(const SQLite::Statement& select) {
+  Columns row(select);
   TrialRecord record;
-  record.cell = ReadIndex(select);
-  record.trial = ReadIndex(select);
-  record.detector = select.ReadText();
-  record.part = select.ReadText();
-  record.sensor = ParseSensor(select.ReadText());
-  record.levels = FactorsFromJson(select.ReadText());
-  record.drawn = FactorsFromJson(select.ReadText());
-  const std::string outcome = select.ReadText();
+  record.cell = ReadIndex(row);
+  record.trial = ReadIndex(row);
+  record.detector = row.Text();
+  record.part = row.Text();
+  record.sensor = ReadSensor(row);
+  record.levels = FactorsFromJson(row.Text());
+  record.drawn = FactorsFromJson(row.Text());
+  const std::string outcome = row.Text();
   const auto parsed = ParseOutcome(outcome);
   if (!parsed) throw std::runtime_error("unknown outcome " + outcome);
   record.score.outcome = *parsed;
-  record.score.reason = select.ReadText();
-  record.score.detail = select.ReadText();
-  record.score.estimate = ReadEstimate(select);
-  record.score.truth_p_CO = ReadVector(select);
+  record.score.reason = row.Text();
+  record.score.detail = row.Text();
+  record.score.estimate = ReadEstimate(row);
+  record.score.truth_p_CO = row.Vector();
   RequireSense(record.score);
-  record.bound_C = ReadMatrix(select);
-  record.stages = StageTimesFromJson(select.ReadText());
+  record.bound_C = row.Matrix();
+  record.stages = StageTimesFromJson(row.Text());
   return record;
+}
+
+SQLite::Statement PrepareInsertRun(const SQLite::Database& database) {
+  return SQLite::Statement(
+      database, fmt::format("INSERT INTO runs ({}) VALUES (?, ?, ?, ?, ?, ?, ?)", kRunColumns));
+}
+
+void InsertRun(SQLite::Statement& statement, const RunEntry& run) {
+  Parameters insert(statement);
+  insert.Bind(run.shard);
+  insert.Bind(run.started_utc);
+  insert.Bind(run.ended_utc);
+  insert.Bind(int64_t{run.jobs});
+  insert.Bind(run.host);
+  insert.Bind(run.processor);
+  insert.Bind(run.command);
+  statement.exec();
+}
+
+SQLite::Statement PrepareSelectRuns(const SQLite::Database& database) {
+  return SQLite::Statement(database, fmt::format("SELECT {} FROM runs ORDER BY run", kRunColumns));
+}
+
+RunEntry ReadRun(const SQLite::Statement& select) {
+  Columns row(select);
+  RunEntry run;
+  run.shard = row.Text();
+  run.started_utc = row.Text();
+  run.ended_utc = row.OptionalText();
+  run.jobs = static_cast<int>(row.Integer());
+  run.host = row.Text();
+  run.processor = row.Text();
+  run.command = row.Text();
+  return run;
 }
 
 }  // namespace fenestra

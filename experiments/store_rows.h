@@ -1,9 +1,11 @@
 #pragma once
 
+#include <SQLiteCpp/SQLiteCpp.h>
+
 #include <cstdint>
 #include <string>
 
-#include "experiments/sqlite_database.h"
+#include "experiments/store_metadata.h"
 #include "experiments/trial_record.h"
 
 namespace fenestra {
@@ -67,15 +69,23 @@ CREATE TABLE trials (
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-/// A TrialRecord to and from a row of the table `trials`; the column order is this file's secret.
+/// A TrialRecord to and from a row of the table `trials`, a RunEntry to and from one of `runs`; the
+/// column order is this file's secret. Doubles keep their bits; NaN fails a check. Errors of SQLite
+/// are thrown as they are, SQLite::Exception.
 
-SqliteStatement PrepareInsert(SqliteDatabase& database);
+SQLite::Statement PrepareInsert(const SQLite::Database& database);
 /// Binds and runs the statement of PrepareInsert.
-void InsertRow(SqliteStatement& insert, const TrialRecord& record);
+void InsertRow(SQLite::Statement& insert, const TrialRecord& record);
 
 /// Rows ordered by (cell, trial, detector); `condition` such as "WHERE cell = ?".
-SqliteStatement PrepareSelect(SqliteDatabase& database, const std::string& condition = "");
+SQLite::Statement PrepareSelect(const SQLite::Database& database,
+                                const std::string& condition = "");
 /// The current row. Throws std::runtime_error for a text that this program does not write.
-TrialRecord ReadRow(SqliteStatement& select);
+TrialRecord ReadRow(const SQLite::Statement& select);
+
+SQLite::Statement PrepareInsertRun(const SQLite::Database& database);
+void InsertRun(SQLite::Statement& insert, const RunEntry& run);
+SQLite::Statement PrepareSelectRuns(const SQLite::Database& database);
+RunEntry ReadRun(const SQLite::Statement& select);
 
 }  // namespace fenestra

@@ -30,7 +30,7 @@ void Validate(const RayCasterOptions& options) {
 
 struct RayCaster::Impl {
   Impl(const Scene& the_scene, const RayCasterOptions& options)
-      : scene((Validate(options), Validate(the_scene), the_scene)),
+      : scene(Validated(the_scene)),
         traced(scene, options.instruction_set),
         surfaces(NumberSurfaces(traced.opaque())),
         bake(BakeLight(traced, surfaces)),
@@ -52,7 +52,7 @@ struct RayCaster::Impl {
 };
 
 RayCaster::RayCaster(const Scene& scene, const RayCasterOptions& options)
-    : impl_(std::make_unique<Impl>(scene, options)) {}
+    : impl_(std::make_unique<Impl>(scene, Validated(options))) {}
 
 RayCaster::~RayCaster() = default;
 

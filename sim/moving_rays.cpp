@@ -1,5 +1,7 @@
 #include "sim/moving_rays.h"
 
+#include "core/input_error.h"
+
 namespace fenestra {
 namespace {
 
@@ -29,9 +31,7 @@ AovImages Stacked(const std::vector<AovImages>& bands) {
 }  // namespace
 
 MovingRays::MovingRays(const CameraModel& camera, const RollingShutter& shutter)
-    : motion_((Validate(shutter), shutter.motion)),
-      camera_(camera),
-      row_bands_(BandsOf(shutter, camera)) {
+    : motion_(Validated(shutter).motion), camera_(camera), row_bands_(BandsOf(shutter, camera)) {
   for (const RowBand& band : row_bands_) rays_.emplace_back(RowsOf(camera, band.first, band.count));
 }
 

@@ -17,11 +17,6 @@ using Table = ParameterTable<WindowPrior>;
 
 constexpr double kSigmas = 5.0;
 
-#define FENESTRA_FIELD(field)    \
-  [](WindowPrior & p) -> auto& { \
-    return p.field;              \
-  }
-
 void AddGeometry(Table& table) {
   table
       .Number("expected_width_m", FENESTRA_FIELD(expected_width_m), {0.0, 1000.0},
@@ -58,8 +53,6 @@ void AddGrey(Table& table) {
       .Number("expected_grey_tolerance", FENESTRA_FIELD(expected_grey_tolerance), {1e-3, 1.0},
               "largest departure from that");
 }
-
-#undef FENESTRA_FIELD
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -22,9 +22,8 @@ struct DarkCentreOptions {
 const ParameterTable<DarkCentreOptions>& Parameters() {
   static const ParameterTable<DarkCentreOptions> table = [] {
     ParameterTable<DarkCentreOptions> t;
-    t.Integer(
-        "threshold_dn", [](DarkCentreOptions& o) -> int& { return o.threshold_dn; }, {0, 255},
-        "Darker pixels, in all three channels, belong to the frame");
+    t.Integer("threshold_dn", FENESTRA_FIELD(threshold_dn), {0, 255},
+              "Darker pixels, in all three channels, belong to the frame");
     return t;
   }();
   return table;

@@ -23,20 +23,12 @@ struct Settings {
 ParameterTable<Settings> Table() {
   ParameterTable<Settings> table;
   table
-      .Number(
-          "angle_deg", [](Settings& s) -> double& { return s.angle_rad; },
-          {.min = -180.0, .max = 180.0, .si_per_unit = std::numbers::pi / 180.0}, "An angle.")
-      .Integer(
-          "size_px", [](Settings& s) -> int& { return s.size_px; }, {.min = 1, .max = 99},
-          "A size.")
-      .Switch(
-          "glass", [](Settings& s) -> bool& { return s.glass; }, "A pane.")
-      .Choice(
-          "scene", [](Settings& s) -> std::string& { return s.scene; }, {"facade", "wall"},
-          "A scene.")
-      .Choice(
-          "finish", [](Settings& s) -> Finish& { return s.finish; }, {"plaster", "brick"},
-          "A finish.");
+      .Number("angle_deg", FENESTRA_FIELD(angle_rad),
+              {.min = -180.0, .max = 180.0, .si_per_unit = std::numbers::pi / 180.0}, "An angle.")
+      .Integer("size_px", FENESTRA_FIELD(size_px), {.min = 1, .max = 99}, "A size.")
+      .Switch("glass", FENESTRA_FIELD(glass), "A pane.")
+      .Choice("scene", FENESTRA_FIELD(scene), {"facade", "wall"}, "A scene.")
+      .Choice("finish", FENESTRA_FIELD(finish), {"plaster", "brick"}, "A finish.");
   return table;
 }
 

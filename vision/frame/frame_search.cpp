@@ -8,11 +8,6 @@ namespace {
 using Options = FrameSearchOptions;
 using Table = ParameterTable<Options>;
 
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
-
 void AddShape(Table& table) {
   table
       .Number("nearest_m", FENESTRA_FIELD(limits.nearest_m), {0.1, 1000.0},
@@ -66,8 +61,6 @@ const Table& FrameSearchParameters() {
   }();
   return table;
 }
-
-#undef FENESTRA_FIELD
 
 std::vector<std::string> FaultsOf(const Options& options) {
   std::vector<std::string> faults;

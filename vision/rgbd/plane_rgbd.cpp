@@ -30,11 +30,6 @@ constexpr double kLeastOfColor = 0.5;
 constexpr double kMostUneven = 4.0;
 constexpr double kBlack_dn = 8.0;
 
-const PlaneRgbdOptions& Validated(const PlaneRgbdOptions& options) {
-  Validate(options);
-  return options;
-}
-
 const RgbdCalibration& Checked(const RgbdCalibration& calibration) {
   if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
     throw InputError("depth_unit_m",

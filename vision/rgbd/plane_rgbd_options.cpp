@@ -1,17 +1,12 @@
 #include "vision/rgbd/plane_rgbd_options.h"
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
 
 using Options = PlaneRgbdOptions;
 using Table = ParameterTable<Options>;
-
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
 
 void AddDepth(Table& table) {
   table
@@ -42,14 +37,12 @@ const Table& PlaneRgbdParameters() {
   return table;
 }
 
-#undef FENESTRA_FIELD
-
 void Validate(const Options& options) {
-  Demands demand("plane-rgbd");
-  demand.Add(PlaneRgbdParameters().Objections(options));
-  demand.Add(FaultsOf(options.search));
-  demand.Add(FaultsOf(options.prior));
-  demand.ThrowUnlessMet();
+  Faults faults("plane-rgbd");
+  faults.Add(PlaneRgbdParameters().Objections(options));
+  faults.Add(FaultsOf(options.search));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

@@ -17,11 +17,6 @@ constexpr double kInnerContrast = 0.4;
 constexpr double kOpening = 0.5;  // Of the places along the inner sides.
 constexpr double kLight = 0.9;    // See BrightBand.
 
-const EdgeStereoOptions& Validated(const EdgeStereoOptions& options) {
-  Validate(options);
-  return options;
-}
-
 const StereoObservation& StereoPart(const Observation& observation) {
   const auto* stereo = std::get_if<StereoObservation>(&observation);
   if (stereo == nullptr) {

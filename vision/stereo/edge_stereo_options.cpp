@@ -1,17 +1,12 @@
 #include "vision/stereo/edge_stereo_options.h"
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
 
 using Options = EdgeStereoOptions;
 using Table = ParameterTable<Options>;
-
-#define FENESTRA_FIELD(field) \
-  [](Options & o) -> auto& {  \
-    return o.field;           \
-  }
 
 }  // namespace
 
@@ -28,14 +23,12 @@ const Table& EdgeStereoParameters() {
   return table;
 }
 
-#undef FENESTRA_FIELD
-
 void Validate(const Options& options) {
-  Demands demand("edge-stereo");
-  demand.Add(EdgeStereoParameters().Objections(options));
-  demand.Add(FaultsOf(options.search));
-  demand.Add(FaultsOf(options.prior));
-  demand.ThrowUnlessMet();
+  Faults faults("edge-stereo");
+  faults.Add(EdgeStereoParameters().Objections(options));
+  faults.Add(FaultsOf(options.search));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

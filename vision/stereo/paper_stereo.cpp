@@ -18,11 +18,6 @@
 namespace fenestra {
 namespace {
 
-const PaperStereoOptions& Validated(const PaperStereoOptions& options) {
-  Validate(options);
-  return options;
-}
-
 FrameCriteria Criteria(const PaperStereoOptions& options) {
   return {.window_px = options.sad_window_px,
           .plane_tolerance_px = options.plane_tolerance_px,

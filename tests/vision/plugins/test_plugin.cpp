@@ -20,12 +20,9 @@ struct Options {
 const ParameterTable<Options>& Parameters() {
   static const ParameterTable<Options> table = [] {
     ParameterTable<Options> t;
-    t.Choice(
-        "mode", [](Options& o) -> std::string& { return o.mode; },
-        {"window", "segfault", "hang", "throw", "print"}, "What it does");
-    t.Number(
-        "depth_m", [](Options& o) -> double& { return o.depth_m; }, {0.1, 100.0},
-        "Where it sees a window");
+    t.Choice("mode", FENESTRA_FIELD(mode), {"window", "segfault", "hang", "throw", "print"},
+             "What it does");
+    t.Number("depth_m", FENESTRA_FIELD(depth_m), {0.1, 100.0}, "Where it sees a window");
     return t;
   }();
   return table;
