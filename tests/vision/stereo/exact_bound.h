@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "core/calibration.h"
-#include "tests/vision/stereo/exact_frame.h"
+#include "core/geometry/calibration.h"
+#include "tests/vision/frame/exact_frame.h"
 
 namespace fenestra::testing {
 
