@@ -26,7 +26,7 @@ SimulatedTrial PaperTrial(const std::string& part, double distance_m) {
     if (cell.part != part) continue;
     for (const auto& [name, value] : cell.levels) {
       if (name == "distance_m" && value == ParameterValue(distance_m)) {
-        return CellBench(study, cell).Simulate(0);
+        return CellRunner(study, cell).Simulate(0);
       }
     }
   }
