@@ -14,8 +14,11 @@ target_compile_options(fenestra_options INTERFACE -ffp-contract=off)
 # They change no result: nobody reads errno after sqrt, or the floating-point exception flags.
 target_compile_options(fenestra_options INTERFACE -fno-math-errno -fno-trapping-math)
 target_include_directories(fenestra_options INTERFACE ${CMAKE_SOURCE_DIR})
-# Programs, too, since a precompiled header serves only sources with the same options.
+# Programs, too, since a precompiled header serves only sources with the same options and macros:
+# those of the projects whose headers are in it, as well.
 target_compile_options(fenestra_options INTERFACE -fPIC)
+target_link_libraries(fenestra_options INTERFACE
+  Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json opencv_core opencv_imgproc)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A quarter of the compiler's time would go into collecting garbage of a process that soon ends.
   # ccache asks for the other one.
@@ -45,7 +48,7 @@ endif()
 # How sources are compiled: each folder's in groups of at most 12, and with the headers of other
 # projects read beforehand. Parsing these and instantiating their templates takes most of the time.
 add_library(fenestra_precompiled OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
-target_link_libraries(fenestra_precompiled PRIVATE fenestra_options Eigen3::Eigen opencv_core)
+target_link_libraries(fenestra_precompiled PRIVATE fenestra_options)
 target_precompile_headers(fenestra_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
 function(fenestra_compile_together target precompiled)
   target_precompile_headers(${target} REUSE_FROM ${precompiled})
