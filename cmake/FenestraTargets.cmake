@@ -60,6 +60,7 @@ function(fenestra_precompile name optimisation)
 endfunction()
 fenestra_precompile(hot -O3)
 fenestra_precompile(cold -O1)
+fenestra_precompile(test -O1 <gmock/gmock.h> <gtest/gtest.h>)
 # fenestra_compile(<target> <name>): as fenestra_precompile(<name> ...) says.
 function(fenestra_compile target name)
   get_target_property(optimisation fenestra_precompiled_${name} optimisation)
@@ -111,11 +112,15 @@ function(fenestra_test name)
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE fenestra_options ${ARG_LIBRARIES}
     GTest::gmock GTest::gtest_main)
-  # Tests spend their time in the libraries, and compiling them in optimising what runs once.
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  fenestra_compile(test_${name} test)
+  # A program has the tests of many folders, whose sources are compiled together folder by folder.
+  set_target_properties(test_${name} PROPERTIES UNITY_BUILD_MODE GROUP)
   # Folders only where they are named: all other objects are the same in every checkout, so that
   # the compiler cache serves them.
   foreach(source ${ARG_SOURCES})
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP in_${group})
     file(STRINGS ${source} names_folder REGEX "FENESTRA_(SOURCE|BUILD)_DIR" LIMIT_COUNT 1)
     if(names_folder)
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS
