@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-double Cross(const Vector2d& a, const Vector2d& b) {
+double CrossProduct(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
@@ -47,7 +47,7 @@ std::optional<std::array<int, 4>> LargestQuadrilateral(const std::vector<Vector2
     for (size_t b = a + 1; b < hull.size(); ++b) {
       for (size_t c = b + 1; c < hull.size(); ++c) {
         for (size_t d = c + 1; d < hull.size(); ++d) {
-          const double twice_area = Cross(at(c) - at(a), at(d) - at(b));
+          const double twice_area = CrossProduct(at(c) - at(a), at(d) - at(b));
           if (twice_area <= largest) continue;
           largest = twice_area;
           best = {hull[a], hull[b], hull[c], hull[d]};
