@@ -6,7 +6,8 @@
 add_library(fenestra_options INTERFACE)
 target_compile_options(fenestra_options INTERFACE
   -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wold-style-cast -Woverloaded-virtual
-  -Wno-restrict  # GCC 12 reports it wrongly for std::string (GCC bug 105651).
+  # GCC 12 reports these wrongly for std::string (GCC bugs 105329 and 105651).
+  -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread
   $<$<BOOL:${FENESTRA_WARNINGS_AS_ERRORS}>:-Werror>)
 # Floating-point contraction would let the compiler round differently from one file to the next.
 target_compile_options(fenestra_options INTERFACE -ffp-contract=off)
