@@ -6,6 +6,19 @@
 
 namespace fenestra {
 
+/// Words with one meaning each in this project, since computer vision and facades share several:
+///
+///   frame         a coordinate frame: three axes and an origin, named by a capital letter
+///   window frame  the members around a window's panes: what is painted black on the wall
+///   image         what a camera delivers
+///   block         the pixels around one pixel that a matcher compares
+///   bound         Cramér and Rao's, the least covariance that an unbiased estimator can have
+///   limit         the value that a check holds a figure against
+///
+/// Axes and pixels: in a camera's frame C, +x is right, +y down and +z forward along the optical
+/// axis. Integer (u, v) is the centre of a pixel, so that the image's borders are at −0.5 and
+/// size − 0.5. Depth is z, never the length of a ray.
+
 /// Coefficients of the Brown–Conrady lens model, in OpenCV's order and sign.
 struct BrownConrady {
   double k1 = 0.0;

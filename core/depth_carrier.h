@@ -19,20 +19,20 @@ namespace fenestra {
 /// and is rounded to the nearest pixel of K; of several, the nearest z wins. If K is rolled against
 /// D, or its pixels are finer, some of its pixels stay empty; and what only K sees is empty too or,
 /// where D sees something behind it, shows that.
-class DepthCarrier {
+class DepthReprojection {
  public:
-  DepthCarrier(const CameraModel& from, const Pose& X_KD, const CameraModel& to);
+  DepthReprojection(const CameraModel& from, const Pose& X_KD, const CameraModel& to);
 
   /// Where no pixel of `from` falls.
   static constexpr int kNowhere = -1;
   /// For each pixel of `to` the index (row by row) of the pixel of `depth` that it shows, and its
   /// depth there [m]; kNowhere and 0 without one.
-  struct Carried {
+  struct Reprojected {
     cv::Mat1i source;
     cv::Mat1f depth_m;
   };
   /// `depth` must have the size of `from`.
-  Carried Carry(const DepthImage& depth) const;
+  Reprojected Reproject(const DepthImage& depth) const;
 
  private:
   CameraModel to_;

@@ -60,7 +60,7 @@ class TrialBench {
 
   /// The depth image with what detectors never see of it: why pixels have no return, and the
   /// infra-red image if there is one. nullopt for stereo.
-  virtual std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const = 0;
+  virtual std::optional<ExplainedDepth> DepthOf(const SimulatedTrial& simulated) const = 0;
 };
 
 /// A trial that every detector of its cell has tried.

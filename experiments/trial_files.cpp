@@ -109,7 +109,7 @@ void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& benc
   const TruthImages images = bench.TruthOf(simulated);
   const SensorCalibration sensor = bench.SensorOf(simulated).cameras;
   const bool stereo = std::holds_alternative<StereoCalibration>(sensor);
-  if (const std::optional<DepthFrame> depth = bench.DepthOf(simulated)) {
+  if (const std::optional<ExplainedDepth> depth = bench.DepthOf(simulated)) {
     WritePng(folder / "no_return.png", DrawNoReturn(depth->no_return));
     // Ten bits at the upper end of sixteen, so that a viewer shows them.
     constexpr double kToSixteenBits = 64.0;

@@ -27,7 +27,7 @@ double SumOfGaussian(double w) {
 
 float ChanceMatch::Best(float enough, float nu) const {
   const double least = static_cast<double>(enough) / deviation;
-  // Spares most windows the functions: 1000 Φ(-5) = Φ(-3.4).
+  // Spares most blocks the functions: 1000 Φ(-5) = Φ(-3.4).
   if (least > 5.0 && nu < 3.4f && places < 1000.0) return -1.0f;
   const double share = NormalShare(static_cast<double>(nu));
   if (share <= std::pow(NormalShare(least), places)) return -1.0f;

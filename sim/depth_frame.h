@@ -15,18 +15,18 @@ enum class NoReturn : unsigned char {
   kGrazing,
   kDark,       ///< The dots do not stand out of the noise, of ambient light among others.
   kSaturated,  ///< Ambient light alone saturates the infra-red image.
-  kNoMatch,    ///< Dots can be seen, but the window is not recognised: it straddles an edge.
-  kBorder,     ///< The window leaves the infra-red image.
+  kNoMatch,    ///< Dots can be seen, but the block is not recognised: it straddles an edge.
+  kBorder,     ///< The block leaves the infra-red image.
   /// Registered depth only: the depth camera sees something else there, or its pixels leave a gap.
   kNotRegistered,
 };
 
 /// A depth image with its reasons.
-struct DepthFrame {
+struct ExplainedDepth {
   DepthImage depth;
   cv::Mat1b no_return;  ///< NoReturn.
-  /// What SpeckleDepth matched: the infra-red image, 10 bits; empty for formulae. Of several frames
-  /// the last one's.
+  /// What MatchedDepth matched: the infra-red image, 10 bits; empty for formulae. Of several images
+  /// the last one.
   cv::Mat1w infrared = {};
 };
 

@@ -16,7 +16,7 @@ double MeanOverPixel(double offset, double sigma_px) {
 
 }  // namespace
 
-GatheredPattern::GatheredPattern(double dot_sigma_px) {
+SampledPattern::SampledPattern(double dot_sigma_px) {
   const double peak = MeanOverPixel(0.0, dot_sigma_px);
   for (size_t i = 0; i < spread_.size(); ++i) {
     const double offset = static_cast<double>(i) / kStepsPerCell - (kReach + 1);
@@ -33,11 +33,11 @@ GatheredPattern::GatheredPattern(double dot_sigma_px) {
   }
 }
 
-float GatheredPattern::SpreadAt(double offset) const {
+float SampledPattern::SpreadAt(double offset) const {
   return spread_[static_cast<size_t>(std::lround((offset + (kReach + 1)) * kStepsPerCell))];
 }
 
-float GatheredPattern::At(double column, int row) const {
+float SampledPattern::At(double column, int row) const {
   const auto nearest = static_cast<int>(std::floor(column + 0.5));
   const double offset = column - nearest;
   int first = (nearest - kReach) % DotPattern::kTileWidth;
@@ -50,7 +50,7 @@ float GatheredPattern::At(double column, int row) const {
   return sum;
 }
 
-cv::Mat1f GatheredPattern::Displaced(double displacement) const {
+cv::Mat1f SampledPattern::Displaced(double displacement) const {
   // All columns lie at the same offset from their cells, so that one kernel serves the whole tile.
   const auto whole = static_cast<int>(std::floor(0.5 - displacement));
   const double offset = -displacement - whole;
@@ -69,14 +69,14 @@ cv::Mat1f GatheredPattern::Displaced(double displacement) const {
   return displaced;
 }
 
-GatheredPattern::Moments GatheredPattern::MomentsAt(double displacement) const {
+SampledPattern::Moments SampledPattern::MomentsAt(double displacement) const {
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(Displaced(displacement), mean, deviation);
   return {mean[0], deviation[0] * deviation[0]};
 }
 
-double GatheredPattern::Correlation(double displacement_a, double displacement_b) const {
+double SampledPattern::Correlation(double displacement_a, double displacement_b) const {
   const cv::Mat1f pattern_a = Displaced(displacement_a);
   const cv::Mat1f pattern_b = Displaced(displacement_b);
   const double products = pattern_a.dot(pattern_b) / static_cast<double>(pattern_a.total());

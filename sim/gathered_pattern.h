@@ -7,10 +7,10 @@ namespace fenestra {
 
 /// The projector's pattern as pixels of the infra-red camera gather it: dots with a Gaussian
 /// spread, averaged over the pixel, relative to a dot that is centred on its pixel.
-class GatheredPattern {
+class SampledPattern {
  public:
   /// dot_sigma_px: the spread [cells].
-  explicit GatheredPattern(double dot_sigma_px);
+  explicit SampledPattern(double dot_sigma_px);
 
   /// A pixel that is centred on this place of the pattern [cells]. Rows of pixels are rows of
   /// cells: camera and projector are rectified.

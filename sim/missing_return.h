@@ -9,20 +9,20 @@
 
 namespace fenestra {
 
-/// Tells why a window was not matched, from what its central pixel sees.
+/// Tells why a block was not matched, from what its central pixel sees.
 class MissingReturn {
  public:
   /// Keeps references. `camera`: a pinhole; p_CP: the projector.
-  MissingReturn(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
+  MissingReturn(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                 const DisparityRange& range, const CameraModel& camera, const Eigen::Vector3d& p_CP)
       : infrared_(infrared), matching_(matching), range_(range), camera_(camera), p_CP_(p_CP) {}
 
-  /// The pixel must see a surface, and its window lie in the image.
+  /// The pixel must see a surface, and its block lie in the image.
   NoReturn Reason(const AovImages& aovs, cv::Point pixel) const;
 
  private:
   const InfraredOptions& infrared_;
-  const SpeckleMatchingOptions& matching_;
+  const PatternMatchingOptions& matching_;
   const DisparityRange& range_;
   const CameraModel& camera_;
   Eigen::Vector3d p_CP_;

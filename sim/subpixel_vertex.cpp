@@ -16,7 +16,7 @@ float VertexOfLogarithms(float before, float score, float after) {
 
 }  // namespace
 
-SubpixelVertex::SubpixelVertex(const GatheredPattern& pattern) {
+SubpixelVertex::SubpixelVertex(const SampledPattern& pattern) {
   const auto fill = [&](Curve& curve, double step) {
     for (int i = 0; i < kOffsets; ++i) {
       const double place = step + i * static_cast<double>(kSpacing);

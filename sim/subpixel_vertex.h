@@ -15,7 +15,7 @@ namespace fenestra {
 /// off.
 class SubpixelVertex {
  public:
-  explicit SubpixelVertex(const GatheredPattern& pattern);
+  explicit SubpixelVertex(const SampledPattern& pattern);
 
   /// Offset [px] of the greatest correlation from a step at which it is `score`, by those half a
   /// pixel before and after it. Even steps are at whole pixels. Without both neighbours above 0,

@@ -98,7 +98,7 @@ TEST(WallTest, WhyPixelsHaveNoReturnStandsInTheTruthAlone) {
     const CellBench bench(study, cell);
     const SimulatedTrial simulated = bench.Simulate(0);
     const auto* seen = std::get_if<RgbdObservation>(&simulated.observation);
-    const std::optional<DepthFrame> depth = bench.DepthOf(simulated);
+    const std::optional<ExplainedDepth> depth = bench.DepthOf(simulated);
     ASSERT_EQ(seen != nullptr, depth.has_value());
     if (seen == nullptr) continue;
     any = true;

@@ -27,9 +27,9 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration);
 
 /// Registers depth to colour. The colour image is freed of distortion (bilinear) and averaged over
 /// the area of each working pixel, on its encoded values, as the threshold of Algorithm 1 is set on
-/// encoded values. Depth is carried to the working camera by DepthCarrier; rolled by 0.03 rad, 0.8
-/// % of a Kinect's pixels stay empty. Where D already is the working camera and X_KD the identity,
-/// both images are taken as they are.
+/// encoded values. Depth is reprojected to the working camera (DepthReprojection); rolled by 0.03
+/// rad, 0.8 % of a Kinect's pixels stay empty. Where D already is the working camera and X_KD the
+/// identity, both images are taken as they are.
 class DepthRegistration {
  public:
   explicit DepthRegistration(const RgbdCalibration& calibration);
@@ -41,11 +41,11 @@ class DepthRegistration {
 
  private:
   cv::Mat3b ResampleColor(const cv::Mat3b& color) const;
-  cv::Mat1f CarryDepth(const DepthImage& depth) const;
+  cv::Mat1f ReprojectDepth(const DepthImage& depth) const;
 
   RgbdCalibration calibration_;
   CameraModel working_;
-  std::optional<DepthCarrier> carrier_;  ///< Unless depth is registered already.
+  std::optional<DepthReprojection> reprojection_;  ///< Unless depth is registered already.
   /// Where each undistorted colour pixel lies in the colour image; empty without distortion.
   cv::Mat2f undistortion_;
 };
