@@ -80,7 +80,7 @@ CameraParameters FromMatrix(YamlReader& reader, const YAML::Node& at, const std:
                      .distortion = distortion};
   const bool pinhole = K[0] > 0.0 && K[4] > 0.0 && K[1] == 0.0 && K[3] == 0.0 && K[6] == 0.0 &&
                        K[7] == 0.0 && K[8] == 1.0;
-  if (!pinhole && !reader.faulty()) {
+  if (!pinhole && reader.fault_count() == 0) {
     reader.AddFault(at, name + " must be [fx 0 cx; 0 fy cy; 0 0 1] with positive focal lengths");
   }
   if (!pinhole) p = {.width_px = 1, .height_px = 1, .fx_px = 1, .fy_px = 1, .distortion = {}};
@@ -103,7 +103,7 @@ Pose ReadPose(YamlReader& reader) {
   const Matrix3d rotation =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
   const double deviation = (rotation * rotation.transpose() - Matrix3d::Identity()).norm();
-  if (reader.faulty()) return Pose();
+  if (reader.fault_count() > 0) return Pose();
   if (!(deviation < 1e-5) || !(rotation.determinant() > 0.0)) {
     reader.AddFault(reader.root()["R"], "R must be a rotation matrix");
     return Pose();

@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -65,17 +65,18 @@ Matrix2d DistortionJacobian(const BrownConrady& d, const Vector2d& n) {
 }
 
 void Validate(const CameraParameters& p) {
-  Demands demand("camera");
-  demand(p.width_px >= 1 && p.width_px <= 16384 && p.height_px >= 1 && p.height_px <= 16384,
-         fmt::format("image size {} x {} px is not between 1 and 16384", p.width_px, p.height_px));
-  demand(std::isfinite(p.fx_px) && p.fx_px > 0.0 && std::isfinite(p.fy_px) && p.fy_px > 0.0,
-         fmt::format("focal lengths {} and {} px are not positive", p.fx_px, p.fy_px));
-  demand(std::isfinite(p.cx_px) && std::isfinite(p.cy_px), "principal point is not finite");
+  Faults faults("camera");
+  faults.Require(
+      p.width_px >= 1 && p.width_px <= 16384 && p.height_px >= 1 && p.height_px <= 16384,
+      fmt::format("image size {} x {} px is not between 1 and 16384", p.width_px, p.height_px));
+  faults.Require(std::isfinite(p.fx_px) && p.fx_px > 0.0 && std::isfinite(p.fy_px) && p.fy_px > 0.0,
+                 fmt::format("focal lengths {} and {} px are not positive", p.fx_px, p.fy_px));
+  faults.Require(std::isfinite(p.cx_px) && std::isfinite(p.cy_px), "principal point is not finite");
   const BrownConrady& d = p.distortion;
-  demand(std::isfinite(d.k1) && std::isfinite(d.k2) && std::isfinite(d.p1) && std::isfinite(d.p2) &&
-             std::isfinite(d.k3),
-         "distortion coefficients are not finite");
-  demand.ThrowUnlessMet();
+  faults.Require(std::isfinite(d.k1) && std::isfinite(d.k2) && std::isfinite(d.p1) &&
+                     std::isfinite(d.p2) && std::isfinite(d.k3),
+                 "distortion coefficients are not finite");
+  faults.ThrowIfAny();
 }
 
 }  // namespace

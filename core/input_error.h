@@ -9,7 +9,7 @@ namespace fenestra {
 
 /// One fault of a file or an option: where it is, what was found and what is allowed.
 struct InputFault {
-  std::string source;  ///< File path or option name; empty if there is none.
+  std::string source{};  ///< File path or option name; empty if there is none.
   int line = 0;        ///< 1-based; 0 where the fault has no line.
   int column = 0;      ///< 1-based; 0 where the fault has no column.
   std::string message;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <opencv2/core.hpp>
+#include <optional>
+#include <string_view>
 #include <variant>
 
 namespace fenestra {
@@ -31,5 +33,7 @@ enum class SensorKind { kStereo, kRgbd };
 
 /// "stereo" or "rgbd".
 const char* ToString(SensorKind kind);
+/// The kind of that name, or nullopt for any other word.
+std::optional<SensorKind> ParseSensorKind(std::string_view word);
 
 }  // namespace fenestra

@@ -51,7 +51,7 @@ std::optional<double> ParseNumber(const std::string& text) {
 }  // namespace
 
 YamlReader::YamlReader(std::string text, std::string source)
-    : text_(std::move(text)), source_(std::move(source)) {
+    : text_(std::move(text)), source_(std::move(source)), faults_(source_) {
   const bool blank =
       std::all_of(text_.begin(), text_.end(), [](unsigned char c) { return std::isspace(c) != 0; });
   if (blank) throw InputError(source_, "the file is empty");
@@ -80,16 +80,12 @@ YamlReader YamlReader::FromText(const std::string& text, const std::string& sour
 
 void YamlReader::AddFault(const YAML::Node& at, const std::string& message) {
   const YAML::Mark mark = at.IsDefined() ? at.Mark() : YAML::Mark::null_mark();
-  faults_.push_back({source_, mark.line + 1, mark.column + 1, message});
+  faults_.AddFault({.line = mark.line + 1, .column = mark.column + 1, .message = message});
 }
 
-void YamlReader::ThrowIfFaulty() const {
-  if (faults_.empty()) return;
-  std::vector<InputFault> ordered = faults_;
-  std::stable_sort(ordered.begin(), ordered.end(), [](const InputFault& a, const InputFault& b) {
-    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
-  });
-  throw InputError(std::move(ordered));
+void YamlReader::ThrowIfFaulty() {
+  faults_.SortByPlace();
+  faults_.ThrowIfAny();
 }
 
 bool YamlReader::CheckKeys(const YAML::Node& node, const std::string& what,
@@ -98,23 +94,21 @@ bool YamlReader::CheckKeys(const YAML::Node& node, const std::string& what,
     AddFault(node, fmt::format("{} must be a mapping (key: value), not {}", what, Describe(node)));
     return false;
   }
-  bool good = true;
+  const size_t before = fault_count();
   std::set<std::string> seen;
   for (const auto& entry : node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : Describe(entry.first);
     if (!seen.insert(key).second) {
       AddFault(entry.first, fmt::format("'{}' stands twice in {}", key, what));
-      good = false;
     } else if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
       std::string hint = DidYouMean(key, allowed);
       if (hint.empty() && allowed.size() <= 16) {
         hint = fmt::format(" Allowed: {}.", fmt::join(allowed, ", "));
       }
       AddFault(entry.first, fmt::format("unknown key '{}' in {}.{}", key, what, hint));
-      good = false;
     }
   }
-  return good;
+  return fault_count() == before;
 }
 
 std::optional<double> YamlReader::Number(const YAML::Node& node, const std::string& what) {

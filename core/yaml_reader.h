@@ -6,9 +6,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra {
 
@@ -28,8 +29,14 @@ class YamlReader {
   const std::string& text() const { return text_; }
 
   void AddFault(const YAML::Node& at, const std::string& message);
-  bool faulty() const { return !faults_.empty(); }
-  void ThrowIfFaulty() const;
+  /// See Faults::count.
+  size_t fault_count() const { return faults_.count(); }
+  /// `value`, or nullopt if a fault was noted after there were `count`.
+  template <typename T>
+  std::optional<T> IfSoundSince(size_t count, T value) const {
+    return fault_count() == count ? std::optional<T>(std::move(value)) : std::nullopt;
+  }
+  void ThrowIfFaulty();
 
   /// Notes a fault unless `node` is a mapping whose keys are unique and all among `allowed`.
   bool CheckKeys(const YAML::Node& node, const std::string& what,
@@ -54,7 +61,7 @@ class YamlReader {
   std::string text_;
   std::string source_;
   YAML::Node root_;
-  std::vector<InputFault> faults_;
+  Faults faults_;
 };
 
 }  // namespace fenestra

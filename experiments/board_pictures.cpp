@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "core/faults.h"
 #include "core/image_io.h"
-#include "core/input_error.h"
 #include "vision/calibration/board_finder.h"
 
 namespace fenestra {
@@ -153,7 +153,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
                                               const CalibrationBoard& board,
                                               const AdjustmentOptions& adjustment) {
   Validate(board);
-  std::vector<InputFault> faults;
+  Faults faults;
   std::vector<NamedView> views;
   std::vector<LeftOutView> without_board;
   cv::Size size;
@@ -179,7 +179,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
         (is_right ? view.corners.right : view.corners.left) =
             std::get<std::vector<BoardCorner>>(std::move(sighting));
       } catch (const InputError& error) {
-        faults.insert(faults.end(), error.faults().begin(), error.faults().end());
+        for (const InputFault& fault : error.faults()) faults.AddFault(fault);
       }
     }
     if (reason.empty()) {
@@ -188,7 +188,7 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
       without_board.push_back({view.name, reason});
     }
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.ThrowIfAny();
   if (views.empty() && !without_board.empty()) {
     throw InputError(
         "calibration",

@@ -39,7 +39,7 @@ std::vector<std::string> Cells(const DetectorComparison& row) {
           mean};
 }
 
-constexpr const char* kHowToRead = R"md(
+constexpr const char* kHowToReadComparison = R"md(
 Both detectors of a line saw the same pixels. *success rate* is the difference of the rates of hits
 (of `clear` in scenes without a window) with its 95 % interval (Tango's score interval), *only one*
 counts trials in which the one or the other alone succeeded, and *p* beside it is McNemar's, exact.
@@ -72,7 +72,7 @@ std::string ComparisonMarkdown(std::span<const DetectorComparison> comparisons) 
     text += fmt::format("### {}: {}\n\n{}\n", head.part, ToString(head.sensor), table.ToMarkdown());
     begin = end;
   }
-  return text + kHowToRead;
+  return text + kHowToReadComparison;
 }
 
 std::string ComparisonCsv(std::span<const DetectorComparison> comparisons) {

@@ -25,8 +25,8 @@ std::vector<int> RowsOfHits(const std::vector<std::optional<Eigen::Vector3d>>& e
 
 }  // namespace
 
-ErrorBudgets::ErrorBudgets(const Study& study) : seed_(study.seed) {
-  for (const Cell& cell : Cells(study)) {
+ErrorBudgets::ErrorBudgets(const Study& study, std::span<const Cell> cells) : seed_(study.seed) {
+  for (const Cell& cell : cells) {
     std::vector<std::string> names;
     for (const Cause& cause : CausesOf(study, cell)) names.push_back(cause.name);
     causes_.push_back(std::move(names));

@@ -44,7 +44,7 @@ struct ErrorBudget {
 /// Collects the rows of a store in any order.
 class ErrorBudgets {
  public:
-  explicit ErrorBudgets(const Study& study);
+  ErrorBudgets(const Study& study, std::span<const Cell> cells);
 
   /// Rows of cells with other designs are passed over.
   void Add(const TrialRecord& record);

@@ -42,7 +42,7 @@ std::string Table(const ErrorBudget& budget) {
   return table.ToMarkdown();
 }
 
-constexpr const char* kHowToRead = R"md(
+constexpr const char* kHowToReadBudget = R"md(
 *alone* is the first-order Sobol index: the share of the error's variance that the cause explains by
 itself. *total* is the total index: the share that would be gone without the cause's spread; what it
 exceeds *alone* by comes from the cause acting together with others. In parentheses 95 % intervals
@@ -66,7 +66,7 @@ std::string ErrorBudgetMarkdown(std::span<const ErrorBudget> budgets) {
         budget.used_rows, budget.rows);
     text += Table(budget) + "\n";
   }
-  return text + kHowToRead;
+  return text + kHowToReadBudget;
 }
 
 std::string ErrorBudgetCsv(std::span<const ErrorBudget> budgets) {

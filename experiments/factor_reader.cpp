@@ -18,20 +18,17 @@ class SettingReader {
 
   std::optional<Levels> ReadLevels(const YAML::Node& node) {
     if (node.size() == 0) return Fault<Levels>(node, "has an empty list of levels");
+    const size_t before = reader_.fault_count();
     Levels levels;
-    bool good = true;
     for (const YAML::Node& item : node) {
       const auto level = factor_.Read(reader_, item);
-      if (!level) {
-        good = false;
-      } else if (std::find(levels.begin(), levels.end(), *level) != levels.end()) {
+      if (!level) continue;
+      if (std::find(levels.begin(), levels.end(), *level) != levels.end()) {
         Fault<Levels>(item, fmt::format("has the level {} twice", ToString(*level)));
-        good = false;
-      } else {
-        levels.push_back(*level);
       }
+      levels.push_back(*level);
     }
-    return good ? std::optional(levels) : std::nullopt;
+    return reader_.IfSoundSince(before, levels);
   }
 
   std::optional<Levels> ReadRange(const YAML::Node& node) {

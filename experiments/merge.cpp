@@ -6,7 +6,7 @@
 #include <iterator>
 #include <map>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 #include "experiments/folder_lock.h"
 #include "experiments/result_files.h"
 #include "experiments/run_identity.h"
@@ -37,13 +37,11 @@ std::vector<ShardResult> OpenAll(const std::vector<fs::path>& folders) {
   return shards;
 }
 
-using Faults = std::vector<InputFault>;
-
-void Report(const fs::path& file, const std::string& message, Faults& faults) {
-  faults.push_back({.source = file.string(), .message = message});
+void Report(const ShardResult& shard, std::string message, Faults& faults) {
+  faults.AddFault({.source = shard.file.string(), .message = std::move(message)});
 }
 
-Faults FaultsOfIdentity(const std::vector<ShardResult>& shards) {
+void CheckIdentity(const std::vector<ShardResult>& shards) {
   Faults faults;
   const ShardResult& first = shards.front();
   for (const ShardResult& shard : shards) {
@@ -54,22 +52,22 @@ Faults FaultsOfIdentity(const std::vector<ShardResult>& shards) {
           fmt::format("shards: {} there, {} here", first.shard.count, shard.shard.count));
     }
     if (differences.empty()) continue;
-    Report(shard.file,
+    Report(shard,
            fmt::format("is of another result than {}. {}", first.file.string(),
                        fmt::join(differences, "; ")),
            faults);
   }
-  return faults;
+  faults.ThrowIfAny();
 }
 
-Faults FaultsOfDivision(const std::vector<ShardResult>& shards) {
+void CheckDivision(const std::vector<ShardResult>& shards) {
   Faults faults;
   std::map<int, const ShardResult*> by_index;
   for (const ShardResult& shard : shards) {
     const auto [other, fresh] = by_index.emplace(shard.shard.index, &shard);
     if (fresh) continue;
     Report(
-        shard.file,
+        shard,
         fmt::format("is shard {}, as is {}", shard.shard.ToString(), other->second->file.string()),
         faults);
   }
@@ -78,13 +76,11 @@ Faults FaultsOfDivision(const std::vector<ShardResult>& shards) {
   for (int index = 1; index <= count; ++index) {
     if (!by_index.contains(index)) missing.push_back(Shard{index, count}.ToString());
   }
-  if (!missing.empty()) {
-    Report("", fmt::format("missing: shard {}", fmt::join(missing, ", ")), faults);
-  }
-  return faults;
+  faults.Require(missing.empty(), fmt::format("missing: shard {}", fmt::join(missing, ", ")));
+  faults.ThrowIfAny();
 }
 
-Faults FaultsOfTrials(const std::vector<ShardResult>& shards, std::span<const TrialKey> all) {
+void CheckTrials(const std::vector<ShardResult>& shards, std::span<const TrialKey> all) {
   Faults faults;
   for (const ShardResult& shard : shards) {
     const std::vector<TrialKey> wanted = shard.shard.Of(all);
@@ -93,26 +89,17 @@ Faults FaultsOfTrials(const std::vector<ShardResult>& shards, std::span<const Tr
     std::set_difference(wanted.begin(), wanted.end(), found.begin(), found.end(),
                         std::back_inserter(missing));
     if (!missing.empty()) {
-      Report(shard.file,
+      Report(shard,
              fmt::format("shard {} lacks {} of its {} trials, the first {}/{}; run it again, and "
                          "it goes on from where it ended",
                          shard.shard.ToString(), missing.size(), wanted.size(),
                          missing.front().cell, missing.front().trial),
              faults);
     } else if (found.size() > wanted.size()) {
-      Report(shard.file, "has trials that are not its own", faults);
+      Report(shard, "has trials that are not its own", faults);
     }
   }
-  return faults;
-}
-
-void Check(const std::vector<ShardResult>& shards) {
-  for (const auto& faults_of : {FaultsOfIdentity, FaultsOfDivision}) {
-    if (Faults faults = faults_of(shards); !faults.empty()) throw InputError(std::move(faults));
-  }
-  const Study study = StudyOf(shards.front().store, shards.front().file);
-  Faults faults = FaultsOfTrials(shards, AllTrials(Cells(study)));
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.ThrowIfAny();
 }
 
 // Throws if `file` is the result of another study.
@@ -173,7 +160,11 @@ void CopyPictures(const std::vector<ShardResult>& shards, const fs::path& out) {
 std::vector<CellSummary> MergeShards(const Merge& merge) {
   if (merge.shards.empty()) throw InputError("", "there are no shards to merge");
   const std::vector<ShardResult> shards = OpenAll(merge.shards);
-  Check(shards);
+  CheckIdentity(shards);
+  CheckDivision(shards);
+  const Study study = StudyOf(shards.front().store, shards.front().file);
+  const std::vector<Cell> cells = Cells(study);
+  CheckTrials(shards, AllTrials(cells));
   const FolderLock lock(merge.out);
   const fs::path file = merge.out / ResultStore::kFileName;
   for (const ShardResult& shard : shards) {
@@ -189,7 +180,7 @@ std::vector<CellSummary> MergeShards(const Merge& merge) {
   } catch (const fs::filesystem_error& error) {
     throw InputError(merge.out, error.what());
   }
-  return WriteResultFiles(ResultStore::OpenReadOnly(file), merge.out);
+  return WriteResultFiles(ResultStore::OpenReadOnly(file), study, cells, merge.out);
 }
 
 }  // namespace fenestra

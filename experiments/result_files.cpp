@@ -31,7 +31,7 @@ std::string Get(const StoreMetadata& metadata, const std::string& key) {
 ReportTitle TitleOf(const ResultStore& store, const Study& study) {
   const StoreMetadata metadata = store.Metadata();
   ReportTitle title{.study = study.name,
-                    .description = study.description,
+                    .description = Get(metadata, "description"),
                     .provenance = {{"Fenestra", Get(metadata, "version")},
                                    {"Seed", std::to_string(study.seed)},
                                    {"Libraries", Get(metadata, "libraries")}}};
@@ -91,10 +91,9 @@ std::vector<CellSummary> Summarise(const ResultStore& store) {
   return summariser.Finish();
 }
 
-std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const fs::path& folder) {
+std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
+                                          std::span<const Cell> cells, const fs::path& folder) {
   const fs::path file = folder / ResultStore::kFileName;
-  const Study study = StudyOf(store, file);
-  const std::vector<Cell> cells = Cells(study);
   CheckedSummariser summariser(file);
   store.ForEachRow([&](const TrialRecord& row) {
     RequireTrialOf(cells, row, file);
@@ -132,10 +131,9 @@ fs::path PictureFolder(const fs::path& folder, const Cell& cell) {
          fmt::format("cell_{:03}_{}_{}", cell.index, cell.part, ToString(cell.sensor));
 }
 
-void WriteResultPictures(const ResultStore& store, const fs::path& file, const fs::path& folder,
-                         int jobs, std::shared_ptr<DetectorMaker> detectors) {
-  const Study study = StudyOf(store, file);
-  const std::vector<Cell> cells = Cells(study);
+void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
+                         const fs::path& folder, int jobs,
+                         std::shared_ptr<DetectorMaker> detectors) {
   std::vector<TrialKey> first;
   for (const TrialKey key : store.FinishedTrials()) {
     if (key.trial == 0) first.push_back(key);

@@ -38,8 +38,9 @@ void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row,
 /// Summaries of all rows; holds the numbers of one cell at a time.
 std::vector<CellSummary> Summarise(const ResultStore& store);
 
-/// Writes all but the pictures from the store alone.
-std::vector<CellSummary> WriteResultFiles(const ResultStore& store,
+/// Writes all but the pictures. `study` is the store's, `cells` are all of its cells.
+std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
+                                          std::span<const Cell> cells,
                                           const std::filesystem::path& folder);
 /// Whether they are all there.
 bool HasResultFiles(const std::filesystem::path& folder);
@@ -50,7 +51,7 @@ void RemoveResultFiles(const std::filesystem::path& folder);
 std::filesystem::path PictureFolder(const std::filesystem::path& folder, const Cell& cell);
 
 /// Makes the pictures again by running the first trial of every cell that the store has.
-void WriteResultPictures(const ResultStore& store, const std::filesystem::path& file,
+void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
                          const std::filesystem::path& folder, int jobs,
                          std::shared_ptr<DetectorMaker> detectors);
 

@@ -29,7 +29,7 @@ std::string CellText(const FigureEstimate& estimate) {
                             Significant(scale * estimate.interval->upper));
 }
 
-constexpr const char* kHowToRead = R"md(
+constexpr const char* kHowToReadIntervals = R"md(
 In parentheses the ends of the 95 % intervals: of rates [%] Clopper and Pearson's; of the bias [mm]
 over the hits Student's t; of the RMSE a studentised bootstrap of its logarithm; of P50 and P95 [mm]
 over all attempts order statistics, with misses as +∞, so that an end may be infinite. Where cells
@@ -40,7 +40,7 @@ intervals.csv has the rates of all outcomes, too.
 }  // namespace
 
 RowReports::RowReports(const Study& study, std::span<const Cell> cells)
-    : study_(study), cells_(cells), budgets_(study), plan_(study, cells) {
+    : study_(study), cells_(cells), budgets_(study, cells), plan_(study, cells) {
   for (const Cell& cell : cells) causes_.push_back(CausesOf(study, cell).size());
 }
 
@@ -96,7 +96,7 @@ std::string RowReports::IntervalsMarkdown() const {
     }
     table.AddRow(std::move(cells));
   }
-  return "## Intervals\n\n" + table.ToMarkdown() + kHowToRead;
+  return "## Intervals\n\n" + table.ToMarkdown() + kHowToReadIntervals;
 }
 
 std::string RowReports::Markdown() const {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <iterator>
+#include <optional>
 
 #include "core/input_error.h"
 #include "core/program.h"
@@ -56,8 +57,15 @@ std::vector<TrialKey> Without(std::span<const TrialKey> trials, std::span<const 
   return missing;
 }
 
-ResultStore Open(const StudyRun& run, const std::filesystem::path& file, bool exists) {
-  if (exists && !run.restart) return ResultStore::Resume(file);
+// The store that this run continues, if there is one.
+std::optional<ResultStore> OpenEarlier(const StudyRun& run, const std::filesystem::path& file) {
+  if (run.restart || !std::filesystem::exists(file)) return std::nullopt;
+  ResultStore store = ResultStore::Resume(file);
+  CheckSame(store.Metadata(), run, file);
+  return store;
+}
+
+ResultStore StartAfresh(const StudyRun& run, const std::filesystem::path& file) {
   ResultStore store = ResultStore::Create(file, MetadataOf(run), ResultStore::IfExists::kReplace);
   RemoveResultFiles(run.out);
   return store;
@@ -140,30 +148,28 @@ StudyResult RunStudy(const StudyRun& run) {
   const FolderLock lock(run.out);
 
   RunStart start{.trials = static_cast<int64_t>(trials.size()), .stored = 0, .tallies = {}};
-  const bool exists = std::filesystem::exists(file);
+  std::optional<ResultStore> store = OpenEarlier(run, file);
   bool complete = false;
-  if (exists && !run.restart) {
-    const ResultStore store = ResultStore::OpenReadOnly(file);
-    CheckSame(store.Metadata(), run, file);
-    complete = Missing(run, cells, store).empty();
-    start.stored = static_cast<int64_t>(store.FinishedTrials().size());
-    start.tallies = store.Tallies();
+  if (store) {
+    complete = Missing(run, cells, *store).empty();
+    start.stored = static_cast<int64_t>(store->FinishedTrials().size());
+    start.tallies = store->Tallies();
   }
   StudyResult result{.trials = complete ? start.stored : start.trials,
                      .stored_before = start.stored,
                      .stored = start.stored,
                      .summaries = {}};
   if (complete && HasResultFiles(run.out)) {
-    result.summaries = Summarise(ResultStore::OpenReadOnly(file));
+    result.summaries = Summarise(*store);
     return result;
   }
   run.on_start(start);
-  ResultStore store = Open(run, file, exists);
-  complete = RunMissing(run, cells, store);
-  result.stored = static_cast<int64_t>(store.FinishedTrials().size());
+  if (!store) store = StartAfresh(run, file);
+  complete = RunMissing(run, cells, *store);
+  result.stored = static_cast<int64_t>(store->FinishedTrials().size());
   if (!complete) return result;
   result.trials = result.stored;  // A study that stops by itself knows its trials only now.
-  result.summaries = WriteResultFiles(store, run.out);
+  result.summaries = WriteResultFiles(*store, run.study, cells, run.out);
   return result;
 }
 

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <optional>
 #include <set>
+#include <tuple>
 
 #include "experiments/detector_choice_reader.h"
 #include "experiments/name_reader.h"
@@ -33,7 +35,11 @@ class SequenceReader {
       reader_.AddFault(frames, fmt::format("frames must be a list of at least one frame, not {}",
                                            YamlReader::Describe(frames)));
     } else if (frames.IsDefined()) {
-      for (const YAML::Node& frame : frames) ReadFrame(frame, sequence);
+      for (const YAML::Node& frame : frames) {
+        if (auto read = ReadFrame(frame, sequence.sensor)) {
+          sequence.frames.push_back(std::move(*read));
+        }
+      }
     }
     reader_.ThrowIfFaulty();
     return sequence;
@@ -60,29 +66,31 @@ class SequenceReader {
     const auto kind = ReadSensor(reader_, sensor);
     if (!kind) reader_.ThrowIfFaulty();
     sequence.sensor = *kind;
-    ReadDetectorsOf(root, sequence);
+    sequence.detectors = ReadDetectorsOf(root, *kind);
     if (const YAML::Node file = root["calibration"]; file.IsDefined()) {
       calibration_ = ReadPath(file, "calibration");
     }
     return sequence;
   }
 
-  void ReadDetectorsOf(const YAML::Node& root, Sequence& sequence) {
+  std::vector<DetectorChoice> ReadDetectorsOf(const YAML::Node& root, SensorKind sensor) {
+    std::vector<DetectorChoice> detectors;
     const YAML::Node given = root["detectors"];
     if (!given.IsDefined()) {
       for (const DetectorInfo& info : Detectors()) {
-        if (info.sensor == sequence.sensor) sequence.detectors.push_back(DefaultChoice(info));
+        if (info.sensor == sensor) detectors.push_back(DefaultChoice(info));
       }
-      return;
+      return detectors;
     }
     for (const GivenDetector& detector :
          ReadDetectors(reader_, given, Detectors()).value_or(std::vector<GivenDetector>{})) {
-      sequence.detectors.push_back(detector.choice);
-      if (detector.choice.sensor == sequence.sensor) continue;
+      detectors.push_back(detector.choice);
+      if (detector.choice.sensor == sensor) continue;
       reader_.AddFault(detector.node,
                        fmt::format("{} works on {}, the sequence is of {}", detector.choice.name,
-                                   ToString(detector.choice.sensor), ToString(sequence.sensor)));
+                                   ToString(detector.choice.sensor), ToString(sensor)));
     }
+    return detectors;
   }
 
   fs::path ReadPath(const YAML::Node& node, const std::string& what) {
@@ -96,16 +104,16 @@ class SequenceReader {
     return path;
   }
 
-  void ReadFrame(const YAML::Node& node, Sequence& sequence) {
-    const bool stereo = sequence.sensor == SensorKind::kStereo;
+  std::optional<SequenceFrame> ReadFrame(const YAML::Node& node, SensorKind sensor) {
+    const bool stereo = sensor == SensorKind::kStereo;
     const std::vector<std::string> images = stereo ? std::vector<std::string>{"left", "right"}
                                                    : std::vector<std::string>{"color", "depth"};
     std::vector<std::string> keys{"calibration", "truth", "part", "levels", "drawn"};
     keys.insert(keys.end(), images.begin(), images.end());
     reader_.CheckKeys(node, "a frame", keys);
-    if (!node.IsMap()) return;
+    if (!node.IsMap()) return std::nullopt;
     SequenceFrame frame;
-    frame.files = ReadFiles(node, images, sequence.sensor);
+    frame.files = ReadFiles(node, images, sensor);
     frame.part = "main";
     if (const YAML::Node part = node["part"]; part.IsDefined()) {
       frame.part = ReadName(reader_, part, "a part's name").value_or("");
@@ -115,8 +123,8 @@ class SequenceReader {
     if (const YAML::Node truth = Required(node, "a frame", "truth"); truth.IsDefined()) {
       frame.truth = ReadSurveyedTruth(reader_, truth);
     }
-    Place(frame);
-    sequence.frames.push_back(std::move(frame));
+    std::tie(frame.cell, frame.trial) = Place(frame.part, frame.levels);
+    return frame;
   }
 
   ObservationFiles ReadFiles(const YAML::Node& node, const std::vector<std::string>& images,
@@ -162,12 +170,11 @@ class SequenceReader {
     return values;
   }
 
-  // Gives the frame its cell and its number in it.
-  void Place(SequenceFrame& frame) {
-    const auto [place, is_new] = cells_.try_emplace(frame.part + FactorsToJson(frame.levels),
+  // The next frame's cell, and its number in it.
+  std::pair<int, int> Place(const std::string& part, const FactorValues& levels) {
+    const auto [place, is_new] = cells_.try_emplace(part + FactorsToJson(levels),
                                                     std::pair(static_cast<int>(cells_.size()), 0));
-    frame.cell = place->second.first;
-    frame.trial = place->second.second++;
+    return {place->second.first, place->second.second++};
   }
 
   YamlReader reader_;

@@ -112,11 +112,11 @@ std::optional<WindowEstimate> ReadEstimate(Columns& row) {
   return estimate;
 }
 
-SensorKind ParseSensor(const std::string& word) {
-  for (const SensorKind sensor : {SensorKind::kStereo, SensorKind::kRgbd}) {
-    if (word == ToString(sensor)) return sensor;
-  }
-  throw std::runtime_error("unknown sensor " + word);
+SensorKind ReadSensor(Columns& row) {
+  const std::string word = row.Text();
+  const auto sensor = ParseSensorKind(word);
+  if (!sensor) throw std::runtime_error("unknown sensor " + word);
+  return *sensor;
 }
 
 int ReadIndex(Columns& row) {
@@ -184,7 +184,7 @@ TrialRecord ReadRow(const SQLite::Statement& select) {
   record.trial = ReadIndex(row);
   record.detector = row.Text();
   record.part = row.Text();
-  record.sensor = ParseSensor(row.Text());
+  record.sensor = ReadSensor(row);
   record.levels = FactorsFromJson(row.Text());
   record.drawn = FactorsFromJson(row.Text());
   const std::string outcome = row.Text();

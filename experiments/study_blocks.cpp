@@ -19,19 +19,17 @@ std::optional<std::vector<SensorKind>> ReadSensors(YamlReader& reader, const YAM
                                       YamlReader::Describe(node)));
     return std::nullopt;
   }
+  const size_t before = reader.fault_count();
   std::vector<SensorKind> sensors;
-  bool good = true;
   for (const YAML::Node& item : node) {
     const auto sensor = ReadSensor(reader, item);
-    good = good && sensor.has_value();
     if (!sensor) continue;
     if (std::find(sensors.begin(), sensors.end(), *sensor) != sensors.end()) {
       reader.AddFault(item, fmt::format("the sensor '{}' stands twice", ToString(*sensor)));
-      good = false;
     }
     sensors.push_back(*sensor);
   }
-  return good ? std::optional(sensors) : std::nullopt;
+  return reader.IfSoundSince(before, sensors);
 }
 
 std::vector<GivenFactor> ReadFactors(YamlReader& reader, const YAML::Node& node) {
@@ -73,31 +71,27 @@ StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,
                      std::span<const DetectorInfo> known_detectors) {
   StudyBlock block;
   block.node = node;
+  const size_t before = reader.fault_count();
   if (const YAML::Node repetitions = node["repetitions"]; repetitions.IsDefined()) {
     const auto count = reader.Integer(repetitions, "repetitions", 1, kMostTrials);
-    block.sound = block.sound && count.has_value();
     if (count) block.repetitions = static_cast<int>(*count);
   }
   if (const YAML::Node sensors = node["sensors"]; sensors.IsDefined()) {
     block.sensors = ReadSensors(reader, sensors);
-    block.sound = block.sound && block.sensors.has_value();
   }
   if (const YAML::Node detectors = node["detectors"]; detectors.IsDefined()) {
     block.detectors = ReadDetectors(reader, detectors, known_detectors);
-    block.sound = block.sound && block.detectors.has_value();
   }
   if (const YAML::Node design = node["design"]; design.IsDefined()) {
     block.design = ReadDesign(reader, design);
-    block.sound = block.sound && block.design.has_value();
   }
   if (const YAML::Node until = node["until"]; until.IsDefined()) {
     block.until = ReadStoppingRule(reader, until);
-    block.sound = block.sound && block.until.has_value();
   }
   if (const YAML::Node envelope = node["envelope"]; envelope.IsDefined()) {
     block.envelope = ReadEnvelopeRule(reader, envelope);
-    block.sound = block.sound && block.envelope.has_value();
   }
+  block.sound = reader.fault_count() == before;
   if (const YAML::Node factors = node["factors"]; factors.IsDefined()) {
     block.factors = ReadFactors(reader, factors);
     block.sound = block.sound && block.factors.size() == factors.size();

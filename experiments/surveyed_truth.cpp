@@ -42,18 +42,20 @@ WindowTruth ReadWindow(YamlReader& reader, const YAML::Node& node) {
   return window;
 }
 
-void ReadOthers(YamlReader& reader, const YAML::Node& node, GroundTruth& truth) {
-  if (!node.IsDefined()) return;
+std::vector<WindowTruth> ReadOthers(YamlReader& reader, const YAML::Node& node) {
+  if (!node.IsDefined()) return {};
   if (!node.IsSequence()) {
     reader.AddFault(node, "other_windows must be a list of windows");
-    return;
+    return {};
   }
+  std::vector<WindowTruth> others;
   static const std::vector<std::string> keys{"centroid_m", "width_m", "height_m"};
   for (const YAML::Node& other : node) {
     if (reader.CheckKeys(other, "another window", keys)) {
-      truth.other_windows.push_back(ReadWindow(reader, other));
+      others.push_back(ReadWindow(reader, other));
     }
   }
+  return others;
 }
 
 std::string WindowYaml(const WindowTruth& window) {
@@ -75,7 +77,7 @@ GroundTruth ReadSurveyedTruth(YamlReader& reader, const YAML::Node& node) {
     return truth;
   }
   reader.CheckKeys(node, "a truth", keys);
-  ReadOthers(reader, node["other_windows"], truth);
+  truth.other_windows = ReadOthers(reader, node["other_windows"]);
   // Other windows alone: there is no target.
   if (node.size() == 1 && node["other_windows"].IsDefined()) return truth;
   truth.target = ReadWindow(reader, node);

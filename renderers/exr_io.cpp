@@ -14,7 +14,7 @@
 #include <set>
 
 #include "core/atomic_file.h"
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -43,20 +43,16 @@ class StringStream : public Imf::OStream {
 };
 
 void Check(const std::filesystem::path& file, const std::vector<ExrChannel>& channels) {
-  std::vector<InputFault> faults;
-  const auto fault = [&](std::string message) {
-    faults.push_back({file.string(), 0, 0, std::move(message)});
-  };
-  if (channels.empty() || channels.front().values.empty()) fault("an image needs pixels");
+  Faults faults(file.string());
+  faults.Require(!channels.empty() && !channels.front().values.empty(), "an image needs pixels");
   std::set<std::string> names;
   for (const ExrChannel& channel : channels) {
-    if (channel.name.empty()) fault("a channel has no name");
-    if (!names.insert(channel.name).second) fault("two channels '" + channel.name + "'");
-    if (channel.values.size() != channels.front().values.size()) {
-      fault("channel '" + channel.name + "' has another size than the first");
-    }
+    faults.Require(!channel.name.empty(), "a channel has no name");
+    faults.Require(names.insert(channel.name).second, "two channels '" + channel.name + "'");
+    faults.Require(channel.values.size() == channels.front().values.size(),
+                   "channel '" + channel.name + "' has another size than the first");
   }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.ThrowIfAny();
 }
 
 // A slice of whose pixels the first is the data window's upper left corner.

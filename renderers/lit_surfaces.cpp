@@ -9,7 +9,7 @@
 namespace fenestra {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kInversePi = 1.0f / std::numbers::pi_v<float>;
 
 // What the sun gives at the corners of a side: the cosines to it, 0 if it stands behind the side.
 glm::vec3 SunCosines(const TriangleSoup& soup, size_t triangle, bool front,
@@ -53,7 +53,7 @@ std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& 
   for (size_t t = 0; t < soup.size(); ++t) {
     const Material& material = scene.materials[scene.meshes[soup.mesh_of[t]].material];
     const Spectrum per_E =
-        arriving ? weights : weights * ReflectanceSpectrum(material) * (1.0f / kPi);
+        arriving ? weights : weights * ReflectanceSpectrum(material) * kInversePi;
     const float emission = arriving ? 0.0f : glm::dot(weights, EmissionSpectrum(material));
     const float sun_per_cosine = glm::dot(per_E, E_sun);
     for (const bool front : {true, false}) {
@@ -71,7 +71,7 @@ std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& 
     }
   }
   if (!arriving) {
-    sides.back().ambient = glm::dot(weights, GroundExitance(lighting)) * (1.0f / kPi);
+    sides.back().ambient = glm::dot(weights, GroundExitance(lighting)) * kInversePi;
   }
   return sides;
 }

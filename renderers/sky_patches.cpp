@@ -7,10 +7,9 @@
 namespace fenestra {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kBands = 8;
 constexpr std::array<int, kBands> kPatchesOfBand = {30, 30, 24, 24, 18, 12, 6, 1};
-constexpr double kBandHeight_rad = 12.0 * kPi / 180.0;
+constexpr double kBandHeight_rad = 12.0 * std::numbers::pi / 180.0;
 // Luminance is averaged over this many points along each side of a patch.
 constexpr int kPointsPerSide = 6;
 
@@ -32,7 +31,7 @@ int SkyPatchOf(const glm::vec3& direction_W) {
   const int count = kPatchesOfBand[static_cast<size_t>(band)];
   const double azimuth =
       std::atan2(static_cast<double>(direction_W.x), static_cast<double>(direction_W.z));
-  const int i = static_cast<int>((azimuth / (2.0 * kPi) + 0.5) * count);
+  const int i = static_cast<int>((azimuth / (2.0 * std::numbers::pi) + 0.5) * count);
   return first + std::clamp(i, 0, count - 1);
 }
 
@@ -47,7 +46,8 @@ std::array<double, kSkyPatches> PatchLuminances(const SkyDome& dome) {
         const double y = std::lerp(LowSine(band), HighSine(band), (p + 0.5) / kPointsPerSide);
         const double r = std::sqrt(1.0 - y * y);
         for (int q = 0; q < kPointsPerSide; ++q) {
-          const double azimuth = 2.0 * kPi * ((i + (q + 0.5) / kPointsPerSide) / count - 0.5);
+          const double azimuth =
+              2.0 * std::numbers::pi * ((i + (q + 0.5) / kPointsPerSide) / count - 0.5);
           mean[patch] += dome.LuminancePerLux({r * std::sin(azimuth), y, r * std::cos(azimuth)}) /
                          (kPointsPerSide * kPointsPerSide);
         }

@@ -1,21 +1,23 @@
 #include "scenes/board_scene.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <opencv2/aruco.hpp>
 
+#include "core/faults.h"
 #include "scenes/paint.h"
-#include "scenes/size_checks.h"
 #include "scenes/solid_lattice.h"
 
 namespace fenestra {
 namespace {
 
-constexpr Solid kWall = 1;
+constexpr Solid kBoardWall = 1;
 constexpr Solid kWhite = 2;
 constexpr Solid kBlack = 3;
 
 // Only the front of this plate becomes surface.
-constexpr double kPlate_m = 1.0;
+constexpr double kBoardPlate_m = 1.0;
 
 // A rectangle of the board's plane, in frame G [m].
 struct Rectangle {
@@ -61,23 +63,23 @@ std::vector<Rectangle> BlackRectangles(const CalibrationBoard& board) {
 Box BoxOf(const Rectangle& r, const Pose& X_WG) {
   const Eigen::Vector3d top_left = X_WG * Eigen::Vector3d(r.left, r.top, 0.0);
   const Eigen::Vector3d bottom_right = X_WG * Eigen::Vector3d(r.right, r.bottom, 0.0);
-  return {{top_left.x(), bottom_right.y(), -kPlate_m}, {bottom_right.x(), top_left.y(), 0.0}};
+  return {{top_left.x(), bottom_right.y(), -kBoardPlate_m}, {bottom_right.x(), top_left.y(), 0.0}};
 }
 
 void Check(const BoardSceneOptions& o) {
   Validate(o.board);
-  SizeChecks checks("board_scene");
+  Faults faults("board_scene");
   const double margin_m = 2.0 * o.board.square_m;
-  checks.Demand(
+  faults.Require(
       !(o.board.width_m() + margin_m >= o.wall_width_m ||
         o.board.height_m() + margin_m >= o.wall_height_m),
       fmt::format("a board of {} m x {} m with its margin does not fit on a wall of {} m "
                   "x {} m",
                   o.board.width_m(), o.board.height_m(), o.wall_width_m, o.wall_height_m));
-  checks.Reflectance("white_reflectance", o.white_reflectance);
-  checks.Reflectance("black_reflectance", o.black_reflectance);
-  checks.Reflectance("wall_reflectance", o.wall_reflectance);
-  checks.ThrowIfFaulty();
+  faults.RequireWithin("white_reflectance", o.white_reflectance, 0.0, 1.0);
+  faults.RequireWithin("black_reflectance", o.black_reflectance, 0.0, 1.0);
+  faults.RequireWithin("wall_reflectance", o.wall_reflectance, 0.0, 1.0);
+  faults.ThrowIfAny();
 }
 
 }  // namespace
@@ -91,12 +93,12 @@ Scene MakeBoardScene(const BoardSceneOptions& options) {
   Check(options);
   const CalibrationBoard& board = options.board;
   const Pose X_WG = BoardPose(board);
-  const Box wall{{-0.5 * options.wall_width_m, -0.5 * options.wall_height_m, -kPlate_m},
+  const Box wall{{-0.5 * options.wall_width_m, -0.5 * options.wall_height_m, -kBoardPlate_m},
                  {0.5 * options.wall_width_m, 0.5 * options.wall_height_m, 0.0}};
   const double margin_m = board.square_m;
   const Box white =
       BoxOf({-margin_m, -margin_m, board.width_m() + margin_m, board.height_m() + margin_m}, X_WG);
-  std::vector<std::pair<Box, Solid>> boxes = {{wall, kWall}, {white, kWhite}};
+  std::vector<std::pair<Box, Solid>> boxes = {{wall, kBoardWall}, {white, kWhite}};
   for (const Rectangle& r : BlackRectangles(board)) boxes.emplace_back(BoxOf(r, X_WG), kBlack);
 
   std::vector<double> x;
@@ -106,7 +108,7 @@ Scene MakeBoardScene(const BoardSceneOptions& options) {
     y.insert(y.end(), {box.low.y(), box.high.y()});
   }
   SolidLattice lattice(
-      {DistinctBreaks(x), DistinctBreaks(y), {static_cast<float>(-kPlate_m), 0.0f}});
+      {DistinctBreaks(x), DistinctBreaks(y), {static_cast<float>(-kBoardPlate_m), 0.0f}});
   for (const auto& [box, solid] : boxes) lattice.Fill(box, solid);
 
   Scene scene;
@@ -116,7 +118,7 @@ Scene MakeBoardScene(const BoardSceneOptions& options) {
         MeshOf(surface, solid, name, static_cast<uint32_t>(scene.materials.size())));
     scene.materials.push_back(MaterialOf(name, {reflectance, reflectance}));
   };
-  add(kWall, "wall", options.wall_reflectance);
+  add(kBoardWall, "wall", options.wall_reflectance);
   add(kWhite, "board_white", options.white_reflectance);
   add(kBlack, "board_black", options.black_reflectance);
   return scene;

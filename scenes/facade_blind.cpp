@@ -10,10 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBeside_m = 0.005;    // Between reveal and blind.
-constexpr double kClearance_m = 0.01;  // Between frame and blind.
+constexpr double kBlindBeside_m = 0.005;    // Between reveal and blind.
+constexpr double kBlindClearance_m = 0.01;  // Between frame and blind.
 constexpr double kSheet_m = 0.004;
-constexpr double kSlatThickness_m = 0.002;
+constexpr double kBlindSlatThickness_m = 0.002;
 // A slat is this much deeper than the pitch: at a tilt of 60 degrees slats just overlap.
 constexpr double kSlatOverlap = 1.2;
 constexpr double kSheetSlice_m = 0.1;
@@ -32,16 +32,16 @@ struct Hanging {
 double DepthOf(const BlindOptions& blind) {
   if (!blind.slatted) return kSheet_m;
   return kSlatOverlap * blind.slat_pitch_m * std::cos(blind.slat_tilt_rad) +
-         kSlatThickness_m * std::sin(blind.slat_tilt_rad);
+         kBlindSlatThickness_m * std::sin(blind.slat_tilt_rad);
 }
 
 Hanging Hang(const BlindOptions& blind, const WindowPlan& window, double coverage) {
   const Box& opening = window.opening;
   const Box& seen = blind.outside ? window.frame : window.frame_hole;
-  const double away_m = kClearance_m + 0.5 * DepthOf(blind);
+  const double away_m = kBlindClearance_m + 0.5 * DepthOf(blind);
   return {
-      .left_x = opening.low.x() + kBeside_m,
-      .right_x = opening.high.x() - kBeside_m,
+      .left_x = opening.low.x() + kBlindBeside_m,
+      .right_x = opening.high.x() - kBlindBeside_m,
       .bottom_y = seen.high.y() - coverage * (seen.high.y() - seen.low.y()),
       .top_y = opening.high.y(),
       .centre_z = blind.outside ? window.frame.high.z() + away_m : window.frame.low.z() - away_m};
@@ -62,8 +62,8 @@ void AddSlats(const BlindOptions& blind, const Hanging& h, Mesh& mesh) {
   // Outwards and down, as they keep out the sun.
   const Vector3d out(0.0, -std::sin(tilt), std::cos(tilt));
   const Vector3d up(0.0, std::cos(tilt), std::sin(tilt));
-  const double reach_m =
-      0.5 * (depth_m * std::sin(tilt) + kSlatThickness_m * std::cos(tilt));  // Above the centre.
+  const double reach_m = 0.5 * (depth_m * std::sin(tilt) +
+                                kBlindSlatThickness_m * std::cos(tilt));  // Above the centre.
   const double room_m = h.height_m() - 2.0 * reach_m;
   if (room_m < 0.0) return;  // Too little is let down for a slat.
   const int gaps = static_cast<int>(std::ceil(room_m / blind.slat_pitch_m));
@@ -72,7 +72,7 @@ void AddSlats(const BlindOptions& blind, const Hanging& h, Mesh& mesh) {
     AddCuboid(
         {.centre_W = {0.5 * (h.left_x + h.right_x), h.top_y - reach_m - share * room_m, h.centre_z},
          .half_x = along,
-         .half_y = 0.5 * kSlatThickness_m * up,
+         .half_y = 0.5 * kBlindSlatThickness_m * up,
          .half_z = 0.5 * depth_m * out},
         1, mesh);
   }

@@ -9,12 +9,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kHinge_m = 0.02;      // From the opening's side to the leaf.
-constexpr double kClearance_m = 0.03;  // Between wall and leaf.
+constexpr double kHinge_m = 0.02;          // From the opening's side to the leaf.
+constexpr double kLeafClearance_m = 0.03;  // Between wall and leaf.
 constexpr double kThickness_m = 0.03;
 constexpr double kRim_m = 0.06;
 constexpr double kSlatPitch_m = 0.06;
-constexpr double kSlatThickness_m = 0.006;
+constexpr double kLeafSlatThickness_m = 0.006;
 const double kSlatTilt_rad = std::numbers::pi / 4.0;
 
 // Slats that slope outwards and down, and end in the rim.
@@ -24,7 +24,7 @@ void AddSlats(const Box& hole, Mesh& mesh) {
   const int count = static_cast<int>(std::floor(height_m / kSlatPitch_m));
   // As deep as the leaf once it is tilted.
   const double depth_m =
-      (kThickness_m - kSlatThickness_m * std::sin(kSlatTilt_rad)) / std::cos(kSlatTilt_rad);
+      (kThickness_m - kLeafSlatThickness_m * std::sin(kSlatTilt_rad)) / std::cos(kSlatTilt_rad);
   const Vector3d along(0.5 * (hole.high.x() - hole.low.x()), 0.0, 0.0);
   const Vector3d out(0.0, -std::sin(kSlatTilt_rad), std::cos(kSlatTilt_rad));
   const Vector3d up(0.0, std::cos(kSlatTilt_rad), std::sin(kSlatTilt_rad));
@@ -32,7 +32,7 @@ void AddSlats(const Box& hole, Mesh& mesh) {
     const double y = hole.low.y() + height_m * (i + 0.5) / count;
     AddCuboid({.centre_W = {centre.x(), y, centre.z()},
                .half_x = along,
-               .half_y = 0.5 * kSlatThickness_m * up,
+               .half_y = 0.5 * kLeafSlatThickness_m * up,
                .half_z = 0.5 * depth_m * out},
               1, mesh);
   }
@@ -62,8 +62,8 @@ double ShutterReach_m(double window_width_m) {
 std::array<Box, 2> ShutterLeaves(const FacadeOptions& options, const WindowPlan& window) {
   const Box& opening = window.opening;
   const double reach_m = ShutterReach_m(options.window.width_m);
-  const double back_z = kClearance_m;
-  const double front_z = kClearance_m + kThickness_m;
+  const double back_z = kLeafClearance_m;
+  const double front_z = kLeafClearance_m + kThickness_m;
   return {Box{{opening.low.x() - reach_m, opening.low.y(), back_z},
               {opening.low.x() - kHinge_m, opening.high.y(), front_z}},
           Box{{opening.high.x() + kHinge_m, opening.low.y(), back_z},

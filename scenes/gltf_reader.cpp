@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 #include "scenes/gltf.h"
 #include "scenes/gltf/asset.h"
 #include "scenes/gltf/cameras.h"
-#include "scenes/gltf/fault_list.h"
+#include "scenes/gltf/document.h"
 #include "scenes/gltf/images.h"
 #include "scenes/gltf/lights.h"
 #include "scenes/gltf/materials.h"
@@ -33,9 +33,9 @@ void CheckScene(const std::filesystem::path& file, const Scene& scene) {
   try {
     Validate(scene);
   } catch (const InputError& error) {
-    std::vector<InputFault> faults = error.faults();
-    for (InputFault& fault : faults) fault.source = file.string();
-    throw InputError(std::move(faults));
+    Faults faults(file.string());
+    for (const InputFault& fault : error.faults()) faults.Add(fault.message);
+    faults.ThrowIfAny();
   }
 }
 
@@ -43,7 +43,7 @@ void CheckScene(const std::filesystem::path& file, const Scene& scene) {
 
 GltfScene ReadGltf(const std::filesystem::path& file, const GltfReadOptions& options) {
   const gltf::Asset asset = gltf::LoadAsset(file, options);
-  gltf::FaultList faults(file);
+  Faults faults(file.string(), gltf::kMostFaults);
   gltf::CheckImages(asset, faults);
   faults.ThrowIfAny();
 

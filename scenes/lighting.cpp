@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra {
 
@@ -14,23 +14,20 @@ Eigen::Vector3d Sun::Direction_W() const {
 }
 
 void Validate(const Lighting& lighting) {
-  std::vector<InputFault> faults;
-  const auto demand = [&faults](const char* name, double value, bool allowed, const char* range) {
-    if (allowed && std::isfinite(value)) return;
-    faults.push_back({"lighting", 0, 0, fmt::format("{} must be {}, not {}", name, range, value)});
-  };
   const Sun& sun = lighting.sun;
   const Sky& sky = lighting.sky;
-  demand("sun azimuth_rad", sun.azimuth_rad, true, "finite");
-  demand("sun elevation_rad", sun.elevation_rad, true, "finite");
-  demand("sun illuminance_lx", sun.illuminance_lx, sun.illuminance_lx >= 0.0, "0 or more");
-  demand("sky illuminance_lx", sky.illuminance_lx, sky.illuminance_lx >= 0.0, "0 or more");
-  demand("ground_reflectance", sky.ground_reflectance,
-         sky.ground_reflectance >= 0.0 && sky.ground_reflectance <= 1.0, "in [0, 1]");
-  demand("irradiance_830_per_lux", lighting.irradiance_830_per_lux,
-         lighting.irradiance_830_per_lux >= 0.0, "0 or more");
-  demand("lamp_dimmer", lighting.lamp_dimmer, lighting.lamp_dimmer >= 0.0, "0 or more");
-  if (!faults.empty()) throw InputError(std::move(faults));
+  Faults faults("lighting");
+  const auto finite = [&faults](const char* name, double value) {
+    faults.Require(std::isfinite(value), fmt::format("{} must be finite, not {}", name, value));
+  };
+  finite("sun azimuth_rad", sun.azimuth_rad);
+  finite("sun elevation_rad", sun.elevation_rad);
+  faults.RequireNotNegative("sun illuminance_lx", sun.illuminance_lx);
+  faults.RequireNotNegative("sky illuminance_lx", sky.illuminance_lx);
+  faults.RequireWithin("ground_reflectance", sky.ground_reflectance, 0.0, 1.0);
+  faults.RequireNotNegative("irradiance_830_per_lux", lighting.irradiance_830_per_lux);
+  faults.RequireNotNegative("lamp_dimmer", lighting.lamp_dimmer);
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

@@ -1,5 +1,7 @@
 #include "scenes/paint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
@@ -46,6 +48,15 @@ glm::dvec3 HueRgb(Hue hue) {
 double MostReflectance(Hue hue) {
   const glm::dvec3 rgb = HueRgb(hue);
   return 1.0 / std::max({rgb.r, rgb.g, rgb.b});
+}
+
+void CheckPaint(const std::string& name, const Paint& paint, Faults& faults) {
+  faults.RequireWithin(name + "_reflectance", paint.reflectance, 0.0, 1.0);
+  faults.RequireWithin(name + "_reflectance_830nm", paint.reflectance_830nm, 0.0, 1.0);
+  const double most = MostReflectance(paint.hue);
+  faults.Require(!(paint.reflectance > most) || paint.reflectance > 1.0,
+                 fmt::format("{}_reflectance can be up to {:.3f} in {}, not {}", name, most,
+                             HueNames().at(static_cast<size_t>(paint.hue)), paint.reflectance));
 }
 
 Material MaterialOf(const std::string& name, const Paint& paint) {

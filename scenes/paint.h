@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/faults.h"
 #include "scenes/scene.h"
 
 namespace fenestra {
@@ -26,6 +27,10 @@ glm::dvec3 HueRgb(Hue hue);
 /// The highest reflectance that a hue can have: above it, one of its colours would reflect more
 /// light than it receives.
 double MostReflectance(Hue hue);
+
+/// Refuses reflectances beyond [0, 1] or beyond what the hue can have. `name` and "_reflectance"
+/// make the name of the paint's reflectance.
+void CheckPaint(const std::string& name, const Paint& paint, Faults& faults);
 
 /// Its reflectance has the paint's luminance and hue.
 Material MaterialOf(const std::string& name, const Paint& paint);

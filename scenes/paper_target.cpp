@@ -1,9 +1,11 @@
 #include "scenes/paper_target.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "core/faults.h"
 #include "scenes/paint.h"
-#include "scenes/size_checks.h"
 #include "scenes/solid_lattice.h"
 
 namespace fenestra {
@@ -16,23 +18,23 @@ constexpr Solid kBorder = 2;
 constexpr double kPlate_m = 1.0;
 
 void Check(const PaperTargetOptions& o) {
-  SizeChecks checks("paper_target");
-  checks.Positive("width_m", o.width_m);
-  checks.Positive("height_m", o.height_m);
-  checks.Positive("border_m", o.border_m);
-  checks.Positive("wall_width_m", o.wall_width_m);
-  checks.Positive("wall_height_m", o.wall_height_m);
-  checks.Demand(!(2.0 * o.border_m >= std::min(o.width_m, o.height_m)),
-                fmt::format("two borders of {} m do not fit into {} m x {} m", o.border_m,
-                            o.width_m, o.height_m));
-  checks.Demand(!(o.width_m >= o.wall_width_m || o.height_m >= o.wall_height_m),
-                fmt::format("a target of {} m x {} m does not fit on a wall of {} m x {} m",
-                            o.width_m, o.height_m, o.wall_width_m, o.wall_height_m));
-  checks.Reflectance("wall_reflectance", o.wall_reflectance);
-  checks.Reflectance("wall_reflectance_830nm", o.wall_reflectance_830nm);
-  checks.Reflectance("frame_reflectance", o.frame_reflectance);
-  checks.Reflectance("frame_reflectance_830nm", o.frame_reflectance_830nm);
-  checks.ThrowIfFaulty();
+  Faults faults("paper_target");
+  faults.RequirePositive("width_m", o.width_m);
+  faults.RequirePositive("height_m", o.height_m);
+  faults.RequirePositive("border_m", o.border_m);
+  faults.RequirePositive("wall_width_m", o.wall_width_m);
+  faults.RequirePositive("wall_height_m", o.wall_height_m);
+  faults.Require(!(2.0 * o.border_m >= std::min(o.width_m, o.height_m)),
+                 fmt::format("two borders of {} m do not fit into {} m x {} m", o.border_m,
+                             o.width_m, o.height_m));
+  faults.Require(!(o.width_m >= o.wall_width_m || o.height_m >= o.wall_height_m),
+                 fmt::format("a target of {} m x {} m does not fit on a wall of {} m x {} m",
+                             o.width_m, o.height_m, o.wall_width_m, o.wall_height_m));
+  faults.RequireWithin("wall_reflectance", o.wall_reflectance, 0.0, 1.0);
+  faults.RequireWithin("wall_reflectance_830nm", o.wall_reflectance_830nm, 0.0, 1.0);
+  faults.RequireWithin("frame_reflectance", o.frame_reflectance, 0.0, 1.0);
+  faults.RequireWithin("frame_reflectance_830nm", o.frame_reflectance_830nm, 0.0, 1.0);
+  faults.ThrowIfAny();
 }
 
 // An upright rectangle of the plate, centred on the origin.

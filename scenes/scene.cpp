@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -24,12 +24,9 @@ bool IsLight(float x) {
   return std::isfinite(x) && x >= 0.0f;
 }
 
-void CheckMaterial(const Material& material, size_t index, size_t texture_count,
-                   std::vector<InputFault>& faults) {
+void CheckMaterial(const Material& material, size_t index, size_t texture_count, Faults& faults) {
   const auto demand = [&](bool holds, const char* message) {
-    if (holds) return;
-    faults.push_back(
-        {"scene", 0, 0, fmt::format("material {} '{}': {}", index, material.name, message)});
+    faults.Require(holds, fmt::format("material {} '{}': {}", index, material.name, message));
   };
   if (material.kind == Material::Kind::kGlass) {
     demand(std::isfinite(material.refractive_index) && material.refractive_index >= 1.0f,
@@ -48,22 +45,17 @@ void CheckMaterial(const Material& material, size_t index, size_t texture_count,
   demand(!material.texture || *material.texture < texture_count, "its texture does not exist");
 }
 
-void CheckTexture(const Texture& texture, size_t index, std::vector<InputFault>& faults) {
-  if (texture.width_px > 0 && texture.height_px > 0 &&
-      texture.texels.size() ==
-          static_cast<size_t>(texture.width_px) * static_cast<size_t>(texture.height_px)) {
-    return;
-  }
-  faults.push_back(
-      {"scene", 0, 0,
-       fmt::format("texture {} '{}': {} texels do not make {} x {}", index, texture.name,
-                   texture.texels.size(), texture.width_px, texture.height_px)});
+void CheckTexture(const Texture& texture, size_t index, Faults& faults) {
+  faults.Require(texture.width_px > 0 && texture.height_px > 0 &&
+                     texture.texels.size() == static_cast<size_t>(texture.width_px) *
+                                                  static_cast<size_t>(texture.height_px),
+                 fmt::format("texture {} '{}': {} texels do not make {} x {}", index, texture.name,
+                             texture.texels.size(), texture.width_px, texture.height_px));
 }
 
-void CheckLamp(const Lamp& lamp, size_t index, std::vector<InputFault>& faults) {
+void CheckLamp(const Lamp& lamp, size_t index, Faults& faults) {
   const auto demand = [&](bool holds, const char* message) {
-    if (holds) return;
-    faults.push_back({"scene", 0, 0, fmt::format("lamp {} '{}': {}", index, lamp.name, message)});
+    faults.Require(holds, fmt::format("lamp {} '{}': {}", index, lamp.name, message));
   };
   const glm::vec3& I = lamp.intensity_rgb;
   demand(lamp.p_WL.allFinite(), "its position must be finite");
@@ -79,11 +71,9 @@ void CheckLamp(const Lamp& lamp, size_t index, std::vector<InputFault>& faults) 
          "the cone's angles must be 0 <= inner < outer <= 90 degrees");
 }
 
-void CheckMesh(const Mesh& mesh, size_t index, size_t material_count,
-               std::vector<InputFault>& faults) {
+void CheckMesh(const Mesh& mesh, size_t index, size_t material_count, Faults& faults) {
   const auto demand = [&](bool holds, const char* message) {
-    if (holds) return;
-    faults.push_back({"scene", 0, 0, fmt::format("mesh {} '{}': {}", index, mesh.name, message)});
+    faults.Require(holds, fmt::format("mesh {} '{}': {}", index, mesh.name, message));
   };
   demand(mesh.material < material_count, "its material does not exist");
   demand(std::ranges::all_of(mesh.positions_W, IsFinite), "positions must be finite");
@@ -114,14 +104,11 @@ void CheckMesh(const Mesh& mesh, size_t index, size_t material_count,
          "a triangle refers to a position that does not exist");
 }
 
-void CheckWindow(const TargetWindow& window, std::vector<InputFault>& faults) {
-  if (std::isfinite(window.width_m) && window.width_m > 0.0 && std::isfinite(window.height_m) &&
-      window.height_m > 0.0) {
-    return;
-  }
-  faults.push_back({"scene", 0, 0,
-                    fmt::format("a window of {} m x {} m must have positive sides", window.width_m,
-                                window.height_m)});
+void CheckWindow(const TargetWindow& window, Faults& faults) {
+  faults.Require(std::isfinite(window.width_m) && window.width_m > 0.0 &&
+                     std::isfinite(window.height_m) && window.height_m > 0.0,
+                 fmt::format("a window of {} m x {} m must have positive sides", window.width_m,
+                             window.height_m));
 }
 
 }  // namespace
@@ -134,7 +121,7 @@ std::array<Eigen::Vector3d, 4> TargetWindow::Corners_W() const {
 }
 
 void Validate(const Scene& scene) {
-  std::vector<InputFault> faults;
+  Faults faults("scene");
   for (size_t i = 0; i < scene.materials.size(); ++i) {
     CheckMaterial(scene.materials[i], i, scene.textures.size(), faults);
   }
@@ -145,7 +132,7 @@ void Validate(const Scene& scene) {
   }
   if (scene.target) CheckWindow(*scene.target, faults);
   for (const TargetWindow& window : scene.other_windows) CheckWindow(window, faults);
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/demands.h"
+#include "core/faults.h"
 #include "core/input_error.h"
 #include "scenes/board_scene.h"
 
@@ -83,14 +83,15 @@ Pose RigPoseFor(const StereoRig& rig, const BoardSessionOptions& session,
 
 void Validate(const BoardSessionOptions& o) {
   Validate(o.board);
-  Demands demand("calibration session");
-  demand(o.views >= 3, fmt::format("{} views are fewer than 3", o.views));
-  demand(o.illuminance_lx > 0.0, "the board must be lit");
-  demand(o.smallest_share > 0.0 && o.smallest_share <= o.largest_share && o.largest_share < 1.0,
-         "the board's share of the image's width must lie between 0 and 1");
-  demand(o.largest_tilt_rad >= 0.0 && o.largest_tilt_rad < 1.5,
-         "the board's tilt must lie between 0 and 85 degrees");
-  demand.ThrowUnlessMet();
+  Faults faults("calibration session");
+  faults.Require(o.views >= 3, fmt::format("{} views are fewer than 3", o.views));
+  faults.Require(o.illuminance_lx > 0.0, "the board must be lit");
+  faults.Require(
+      o.smallest_share > 0.0 && o.smallest_share <= o.largest_share && o.largest_share < 1.0,
+      "the board's share of the image's width must lie between 0 and 1");
+  faults.Require(o.largest_tilt_rad >= 0.0 && o.largest_tilt_rad < 1.5,
+                 "the board's tilt must lie between 0 and 85 degrees");
+  faults.ThrowIfAny();
 }
 
 BoardWorld::BoardWorld(const CalibrationBoard& board)

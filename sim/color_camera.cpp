@@ -7,8 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
-#include "core/demands.h"
-#include "core/input_error.h"
+#include "core/faults.h"
 #include "core/io/srgb.h"
 
 namespace fenestra {
@@ -55,12 +54,13 @@ CameraModel DesignOf(const ColorCameraOptions& o) {
 }
 
 void Validate(const ColorCameraOptions& o) {
-  Demands demand("colour camera");
-  demand(o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
-         fmt::format("blur of {} px in the corners is less than {} px in the centre",
-                     o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
-  demand(o.mean_dn > 0.0 && o.mean_dn < 255.0, "the image's mean must lie between 0 and 255");
-  demand.ThrowUnlessMet();
+  Faults faults("colour camera");
+  faults.Require(o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
+                 fmt::format("blur of {} px in the corners is less than {} px in the centre",
+                             o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
+  faults.Require(o.mean_dn > 0.0 && o.mean_dn < 255.0,
+                 "the image's mean must lie between 0 and 255");
+  faults.ThrowIfAny();
   Validate(RollingShutter{.motion = {}, .readout_s = o.readout_s});
 }
 

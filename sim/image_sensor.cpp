@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/demands.h"
+#include "core/faults.h"
 #include "core/wide.h"
 
 namespace fenestra {
@@ -74,20 +74,22 @@ FENESTRA_WIDE void DigitiseRow(const float* electrons, const float* offset_e, fl
 }  // namespace
 
 void Validate(const ImageSensorOptions& o, const char* who) {
-  Demands demand(who);
-  demand(o.saturation_e > 0.0, fmt::format("saturation {} e is not positive", o.saturation_e));
-  demand(o.read_noise_e >= 0.0 && o.dark_current_e_s >= 0.0 && o.dsnu_e >= 0.0 && o.prnu >= 0.0 &&
-             o.row_noise_e >= 0.0,
-         "noise figures must not be negative");
-  demand(o.dark_current_doubling_k > 0.0, "dark current must double over a positive temperature");
-  demand(o.adc_bits >= 1 && o.adc_bits <= 16,
-         fmt::format("an ADC of {} bits is not between 1 and 16", o.adc_bits));
-  demand(
+  Faults faults(who);
+  faults.Require(o.saturation_e > 0.0,
+                 fmt::format("saturation {} e is not positive", o.saturation_e));
+  faults.Require(o.read_noise_e >= 0.0 && o.dark_current_e_s >= 0.0 && o.dsnu_e >= 0.0 &&
+                     o.prnu >= 0.0 && o.row_noise_e >= 0.0,
+                 "noise figures must not be negative");
+  faults.Require(o.dark_current_doubling_k > 0.0,
+                 "dark current must double over a positive temperature");
+  faults.Require(o.adc_bits >= 1 && o.adc_bits <= 16,
+                 fmt::format("an ADC of {} bits is not between 1 and 16", o.adc_bits));
+  faults.Require(
       o.output_bits >= 1 && o.output_bits <= o.adc_bits,
       fmt::format("{} output bits are not between 1 and the ADC's {}", o.output_bits, o.adc_bits));
-  demand(o.black_level_dn >= 0.0 && o.black_level_dn < AdcFullScale(o),
-         fmt::format("black level {} DN is outside the ADC's range", o.black_level_dn));
-  demand.ThrowUnlessMet();
+  faults.Require(o.black_level_dn >= 0.0 && o.black_level_dn < AdcFullScale(o),
+                 fmt::format("black level {} DN is outside the ADC's range", o.black_level_dn));
+  faults.ThrowIfAny();
 }
 
 ExposureSetting ChooseExposure(const ExposureOptions& exposure, const ImageSensorOptions& sensor,

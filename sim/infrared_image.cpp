@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -66,14 +66,15 @@ cv::Mat2f GatheredLight(const InfraredOptions& o, const SampledPattern& pattern,
 }  // namespace
 
 void Validate(const InfraredOptions& o) {
-  Demands demand("infra-red image");
-  demand(o.dot_irradiance > 0.0, "the dots' irradiance must be positive");
-  demand(o.dot_sigma_px >= 0.1 && o.dot_sigma_px <= 1.0, "dots must spread over 0.1 to 1 px");
-  demand(o.dark_noise_dn >= 0.0 && o.shot_noise_dn >= 0.0 && o.speckle_contrast >= 0.0,
-         "noise must not be negative");
-  demand(o.saturation_dn >= 1.0 && o.saturation_dn <= 1023.0,
-         "saturation must lie between 1 and 1023 DN, of 10 bits");
-  demand.ThrowUnlessMet();
+  Faults faults("infra-red image");
+  faults.Require(o.dot_irradiance > 0.0, "the dots' irradiance must be positive");
+  faults.Require(o.dot_sigma_px >= 0.1 && o.dot_sigma_px <= 1.0,
+                 "dots must spread over 0.1 to 1 px");
+  faults.Require(o.dark_noise_dn >= 0.0 && o.shot_noise_dn >= 0.0 && o.speckle_contrast >= 0.0,
+                 "noise must not be negative");
+  faults.Require(o.saturation_dn >= 1.0 && o.saturation_dn <= 1023.0,
+                 "saturation must lie between 1 and 1023 DN, of 10 bits");
+  faults.ThrowIfAny();
 }
 
 InfraredLight InfraredLightAt(const InfraredOptions& o, const AovImages& aovs, cv::Point pixel,

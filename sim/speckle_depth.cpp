@@ -9,7 +9,7 @@ namespace fenestra {
 namespace {
 
 // The infra-red camera: each of its pixels `scale` u, v has the ray of the depth pixel u, v.
-CameraModel InfraredCamera(const CameraModel& depth, int scale) {
+CameraModel ScaledUp(const CameraModel& depth, int scale) {
   CameraParameters parameters = depth.parameters();
   parameters.width_px *= scale;
   parameters.height_px *= scale;
@@ -31,7 +31,7 @@ MatchedDepth::MatchedDepth(const InfraredOptions& infrared, const PatternMatchin
       p_CP_(baseline_m, 0.0, 0.0),
       scale_(scale),
       depth_size_(depth.width_px(), depth.height_px()),
-      rays_(InfraredCamera(depth, scale), shutter),
+      rays_(ScaledUp(depth, scale), shutter),
       pattern_(infrared.dot_sigma_px),
       matcher_(matching, infrared, pattern_, rays_.size(), 0.0,
                matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth) {}

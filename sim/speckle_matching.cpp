@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "core/check.h"
-#include "core/demands.h"
-#include "core/input_error.h"
+#include "core/faults.h"
 #include "core/wide.h"
 
 namespace fenestra {
@@ -131,19 +130,22 @@ double PatternMatchingOptions::SearchEnd(const DisparityRange& range) const {
 }
 
 void Validate(const PatternMatchingOptions& o) {
-  Demands demand("speckle matching");
+  Faults faults("speckle matching");
   for (const int side : {o.block_width_px, o.block_height_px}) {
-    demand(side >= 3 && side <= 15 && side % 2 == 1,
-           fmt::format("the window's sides must be odd numbers from 3 to 15 px, not {}", side));
+    faults.Require(
+        side >= 3 && side <= 15 && side % 2 == 1,
+        fmt::format("the window's sides must be odd numbers from 3 to 15 px, not {}", side));
   }
-  demand(o.search_px >= 1.0 && o.search_px <= 200.0, "the search must be over 1 to 200 px");
-  demand(o.least_correlation > 0.0 && o.least_correlation < 1.0,
-         "the least correlation must lie between 0 and 1");
-  demand(o.least_lead >= 0.0 && o.least_lead < 1.0, "the least lead must lie between 0 and 1");
-  demand(o.most_unexplained >= 0.0, "the most that is unexplained must not be negative");
-  demand(o.most_off_centre > 0.0 && o.most_off_centre <= 0.5,
-         "evidence may be off centre by up to half of the window's width, but not by nothing");
-  demand.ThrowUnlessMet();
+  faults.Require(o.search_px >= 1.0 && o.search_px <= 200.0, "the search must be over 1 to 200 px");
+  faults.Require(o.least_correlation > 0.0 && o.least_correlation < 1.0,
+                 "the least correlation must lie between 0 and 1");
+  faults.Require(o.least_lead >= 0.0 && o.least_lead < 1.0,
+                 "the least lead must lie between 0 and 1");
+  faults.Require(o.most_unexplained >= 0.0, "the most that is unexplained must not be negative");
+  faults.Require(
+      o.most_off_centre > 0.0 && o.most_off_centre <= 0.5,
+      "evidence may be off centre by up to half of the window's width, but not by nothing");
+  faults.ThrowIfAny();
 }
 
 PatternMatcher::PatternMatcher(const PatternMatchingOptions& options,

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/demands.h"
-#include "core/input_error.h"
+#include "core/faults.h"
 #include "core/random/random_pose.h"
 
 namespace fenestra {
@@ -102,26 +101,28 @@ double LargestRadius(const RayGrid& rays) {
 }  // namespace
 
 void Validate(const StereoRigOptions& o) {
-  Demands demand("stereo rig");
-  demand(o.pixel_pitch_m > 0.0, fmt::format("pixel pitch {} m is not positive", o.pixel_pitch_m));
-  demand(o.focal_length_m > 0.0,
-         fmt::format("focal length {} m is not positive", o.focal_length_m));
-  demand(o.baseline_m > 0.0, fmt::format("baseline {} m is not positive", o.baseline_m));
-  demand(o.lens.f_number > 0.0, fmt::format("f-number {} is not positive", o.lens.f_number));
-  demand(o.exposure.shortest_s <= o.exposure.longest_s,
-         fmt::format("shortest exposure {} s is longer than the longest, {} s",
-                     o.exposure.shortest_s, o.exposure.longest_s));
-  demand(o.lens.blur_sigma_px >= 0.0 && o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
-         fmt::format("blur {} px in the corners is less than {} px in the centre",
-                     o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
+  Faults faults("stereo rig");
+  faults.Require(o.pixel_pitch_m > 0.0,
+                 fmt::format("pixel pitch {} m is not positive", o.pixel_pitch_m));
+  faults.Require(o.focal_length_m > 0.0,
+                 fmt::format("focal length {} m is not positive", o.focal_length_m));
+  faults.Require(o.baseline_m > 0.0, fmt::format("baseline {} m is not positive", o.baseline_m));
+  faults.Require(o.lens.f_number > 0.0,
+                 fmt::format("f-number {} is not positive", o.lens.f_number));
+  faults.Require(o.exposure.shortest_s <= o.exposure.longest_s,
+                 fmt::format("shortest exposure {} s is longer than the longest, {} s",
+                             o.exposure.shortest_s, o.exposure.longest_s));
+  faults.Require(o.lens.blur_sigma_px >= 0.0 && o.lens.corner_blur_sigma_px >= o.lens.blur_sigma_px,
+                 fmt::format("blur {} px in the corners is less than {} px in the centre",
+                             o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
   const RigTolerances& t = o.tolerances;
-  demand(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
-             t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
-         "tolerances must not be negative");
-  if (demand.met() && !DistortionIsInvertible(DesignedCamera(o))) {
-    demand(false, "the distortion folds the image over before its corners");
+  faults.Require(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
+                     t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
+                 "tolerances must not be negative");
+  if (faults.count() == 0 && !DistortionIsInvertible(DesignedCamera(o))) {
+    faults.Add("the distortion folds the image over before its corners");
   }
-  demand.ThrowUnlessMet();
+  faults.ThrowIfAny();
 }
 
 StereoCalibration DesignOf(const StereoRigOptions& options) {

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "core/demands.h"
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -61,28 +60,31 @@ MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
 }  // namespace
 
 void Validate(const StructuredLightOptions& o) {
-  Demands demand("structured-light sensor");
-  demand(o.projector_baseline_m > 0.0, "the projector's baseline must be positive");
-  demand(o.disparity_step_px >= 0.0, "the disparity step must not be negative");
-  demand(o.averaged_frames >= 1 && o.averaged_frames <= 1000,
-         fmt::format("{} averaged frames are not between 1 and 1000", o.averaged_frames));
-  demand(!o.registered_depth ||
-             o.depth_width_px * o.color.height_px == o.depth_height_px * o.color.width_px,
-         fmt::format("depth in {} x {} px cannot be registered to colour in {} x {} px: the images "
-                     "must have the same proportions",
-                     o.depth_width_px, o.depth_height_px, o.color.width_px, o.color.height_px));
-  demand(o.depth_model != DepthModel::kMatched || o.infrared_width_px % o.depth_width_px == 0,
-         fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
-                     o.infrared_width_px, o.depth_width_px));
+  Faults faults("structured-light sensor");
+  faults.Require(o.projector_baseline_m > 0.0, "the projector's baseline must be positive");
+  faults.Require(o.disparity_step_px >= 0.0, "the disparity step must not be negative");
+  faults.Require(o.averaged_frames >= 1 && o.averaged_frames <= 1000,
+                 fmt::format("{} averaged frames are not between 1 and 1000", o.averaged_frames));
+  faults.Require(
+      !o.registered_depth ||
+          o.depth_width_px * o.color.height_px == o.depth_height_px * o.color.width_px,
+      fmt::format("depth in {} x {} px cannot be registered to colour in {} x {} px: the images "
+                  "must have the same proportions",
+                  o.depth_width_px, o.depth_height_px, o.color.width_px, o.color.height_px));
+  faults.Require(
+      o.depth_model != DepthModel::kMatched || o.infrared_width_px % o.depth_width_px == 0,
+      fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
+                  o.infrared_width_px, o.depth_width_px));
   if (o.depth_model == DepthModel::kMatched && o.projector_baseline_m > 0.0) {
     const double end_px = MatchingSearchEnd(o);
-    demand(end_px <= PatternMatcher::kMostDisparity_px,
-           fmt::format("at the nearest distance disparities are {:.0f} px of the infra-red image, "
-                       "which is more than {:.0f}: it is too wide, or the focal length or the "
-                       "projector's baseline too long",
-                       end_px, PatternMatcher::kMostDisparity_px));
+    faults.Require(
+        end_px <= PatternMatcher::kMostDisparity_px,
+        fmt::format("at the nearest distance disparities are {:.0f} px of the infra-red image, "
+                    "which is more than {:.0f}: it is too wide, or the focal length or the "
+                    "projector's baseline too long",
+                    end_px, PatternMatcher::kMostDisparity_px));
   }
-  demand.ThrowUnlessMet();
+  faults.ThrowIfAny();
   Validate(InfraredShutter(o));
   Validate(o.infrared);
   Validate(o.parametric);

@@ -19,25 +19,25 @@
 ///
 ///     void Register(fenestra::DetectorRegistrar& registrar);
 ///
-/// can be named with --plugin; examples/plugin is a whole one. It must be built by the compiler and
-/// against the headers and libraries that the program was built with: C++ objects go to and fro.
-/// PluginInterface() says which these were, and a library with another one is refused.
+/// can be loaded with --plugin; examples/plugin is a complete one. It must be built with the same
+/// compiler, headers and libraries as the program, because C++ objects are exchanged.
+/// PluginInterface() states which these were, and a library with a different interface is refused.
 
 namespace fenestra {
 
-/// Where a plugin's detectors are registered.
+/// Registers a plugin's detectors.
 class DetectorRegistrar {
  public:
   virtual ~DetectorRegistrar() = default;
-  /// The name is [a-z0-9_-]+, at most 64 of them, and no other detector's.
+  /// The name must be 1 to 64 of the characters a-z 0-9 _ - and must not be taken.
   virtual void Add(const DetectorInfo& info, const DetectorFactory& make) = 0;
 };
 
-/// Counts up with every change to what a plugin and the program share that the sizes below do not
-/// show.
+/// Incremented with every change to the types shared by plugins and the program that does not
+/// change the sizes below.
 inline constexpr int kPluginInterfaceVersion = 1;
 
-/// Everything that must be the same on both sides, as text.
+/// Text of everything that must be equal on both sides.
 inline std::string PluginInterface() {
   const auto sizes = [](auto... size) { return (std::to_string(size) + ...); };
   return "Fenestra plugin interface " + std::to_string(kPluginInterfaceVersion) + ", compiler " +

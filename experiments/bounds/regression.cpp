@@ -11,11 +11,11 @@
 namespace fenestra {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMissDistance_m = std::numeric_limits<double>::infinity();
 
 double ErrorOf(const TrialRecord& row) {
   const auto error_C = row.score.CentroidError_C();
-  return error_C ? error_C->norm() : kInfinity;
+  return error_C ? error_C->norm() : kMissDistance_m;
 }
 
 struct Difference {

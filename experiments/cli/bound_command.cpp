@@ -47,23 +47,21 @@ void PrintBounds(const BoundArguments& arguments) {
 
 }  // namespace
 
-void AddBoundCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "bound", "Prints how exactly a study's windows could be found at best");
-  command->footer(
+void AddBoundCommand(Command program) {
+  Command command =
+      program.AddCommand("bound", "Prints how exactly a study's windows could be found at best");
+  command.Footer(
       "Example:\n"
       "  fenestra bound paper --trials 3\n"
       "Renders the first trials of each cell; no detector sees them.");
   const auto arguments = std::make_shared<BoundArguments>();
-  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
-  command->add_option("--cell", arguments->cell, "Only this cell, by its index");
-  command->add_option("--trials", arguments->trials, "Of each cell")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] {
+  command.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
+  command.AddOption("--cell", arguments->cell, "Only this cell, by its index");
+  command.AddOption("--trials", arguments->trials, "Of each cell").Within(1, 100000).ShowDefault();
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] {
     PrintBounds(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

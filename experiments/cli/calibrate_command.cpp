@@ -71,41 +71,38 @@ void Calibrate(const CalibrateArguments& arguments) {
 
 }  // namespace
 
-void AddCalibrateCommand(CLI::App& program, int& exit_code) {
-  CLI::App* calibrate =
-      program.add_subcommand("calibrate", "Calibrates a real rig from pictures of a board");
-  calibrate->require_subcommand(1);
+void AddCalibrateCommand(Command program) {
+  Command calibrate =
+      program.AddCommand("calibrate", "Calibrates a real rig from pictures of a board");
+  calibrate.RequireCommand();
   const std::string example =
       "Example:\n"
       "  fenestra calibrate stereo --left 'left*.png' --right 'right*.png' --corners 9x6 "
       "--square-mm 30 --out rig";
-  calibrate->footer(example);
+  calibrate.Footer(example);
 
-  CLI::App* stereo = calibrate->add_subcommand(
+  Command stereo = calibrate.AddCommand(
       "stereo", "Both cameras of a pair and the pose between them, with their covariance");
-  stereo->footer(example +
-                 "\n10 to 20 pairs are usual: the board tilted in different directions, near and "
-                 "far,\nand all over both images.");
+  stereo.Footer(example +
+                "\n10 to 20 pairs are usual: the board tilted in different directions, near and "
+                "far,\nand all over both images.");
   const auto arguments = std::make_shared<CalibrateArguments>();
-  stereo->add_option("--left", arguments->left, "Left pictures: files, a folder or a pattern")
-      ->required();
+  stereo.AddOption("--left", arguments->left, "Left pictures: files, a folder or a pattern")
+      .Required();
   stereo
-      ->add_option("--right", arguments->right,
-                   "Right pictures, paired with the left ones in the order of their names")
-      ->required();
-  stereo->add_option("--corners", arguments->corners, "Inner corners, COLUMNSxROWS")->required();
-  stereo->add_option("--square-mm", arguments->square_mm, "Side of a square")
-      ->required()
-      ->check(Positive());
-  stereo->add_flag("--charuco", arguments->charuco, "A ChArUco board of DICT_5X5_100");
-  stereo->add_option("--marker-mm", arguments->marker_mm, "Side of a ChArUco marker")
-      ->check(Positive());
-  stereo->add_flag("--free-k3", arguments->free_k3,
-                   "Estimate k3, too: for lenses with strong distortion and many views");
-  stereo->add_option("--out", arguments->out, "Folder for the results")->required();
-  stereo->callback([arguments, &exit_code] {
+      .AddOption("--right", arguments->right,
+                 "Right pictures, paired with the left ones in the order of their names")
+      .Required();
+  stereo.AddOption("--corners", arguments->corners, "Inner corners, COLUMNSxROWS").Required();
+  stereo.AddOption("--square-mm", arguments->square_mm, "Side of a square").Required().Positive();
+  stereo.AddFlag("--charuco", arguments->charuco, "A ChArUco board of DICT_5X5_100");
+  stereo.AddOption("--marker-mm", arguments->marker_mm, "Side of a ChArUco marker").Positive();
+  stereo.AddFlag("--free-k3", arguments->free_k3,
+                 "Estimate k3, too: for lenses with strong distortion and many views");
+  stereo.AddOption("--out", arguments->out, "Folder for the results").Required();
+  stereo.Action([arguments] {
     Calibrate(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

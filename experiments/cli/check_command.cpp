@@ -73,29 +73,28 @@ int Check(const CheckArguments& arguments) {
 
 }  // namespace
 
-void AddCheckCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("check", "Holds results against bounds, as a CI gate does");
-  command->footer(
+void AddCheckCommand(Command program) {
+  Command command = program.AddCommand("check", "Holds results against bounds, as a CI gate does");
+  command.Footer(
       "Examples:\n"
       "  fenestra check bounds.yaml                            runs the study that it names\n"
       "  fenestra check bounds.yaml --results results/paper\n"
       "  fenestra check bounds.yaml --results new --baseline old --markdown comment.md\n"
       "Exit codes: 0 no bound is violated, 1 one is (with --strict: or is undecided).");
   const auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("BOUNDS", arguments->bounds, "File of bounds (YAML)")->required();
-  CLI::Option* results = command->add_option("--results", arguments->results,
-                                             "Results to check; else the study is run");
-  command->add_option("--baseline", arguments->baseline,
-                      "Results of the same study to compare with, trial by trial");
-  for (CLI::Option* option : AddStudyRunOptions(*command, arguments->run)) {
-    option->excludes(results);
+  command.AddOption("BOUNDS", arguments->bounds, "File of bounds (YAML)").Required();
+  Option results =
+      command.AddOption("--results", arguments->results, "Results to check; else the study is run");
+  command.AddOption("--baseline", arguments->baseline,
+                    "Results of the same study to compare with, trial by trial");
+  for (Option option : AddStudyRunOptions(command, arguments->run)) {
+    option.Excludes(results);
   }
-  command->add_option("--junit", arguments->junit, "Write JUnit XML to this file");
-  command->add_option("--markdown", arguments->markdown,
-                      "Write a comment for a pull request to this file");
-  command->add_flag("--strict", arguments->strict, "Undecided bounds fail, too");
-  command->callback([arguments, &exit_code] { exit_code = Check(*arguments); });
+  command.AddOption("--junit", arguments->junit, "Write JUnit XML to this file");
+  command.AddOption("--markdown", arguments->markdown,
+                    "Write a comment for a pull request to this file");
+  command.AddFlag("--strict", arguments->strict, "Undecided bounds fail, too");
+  command.Action([arguments] { return Check(*arguments); });
 }
 
 }  // namespace fenestra::cli

@@ -9,10 +9,10 @@
 
 namespace fenestra::cli {
 
-void AddDepthCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddDepthCommand(Command program) {
+  Command command = program.AddCommand(
       "depth", "Measures the RGB-D sensor's depth before walls, beside published curves");
-  command->footer(
+  command.Footer(
       "Example:\n"
       "  fenestra depth /tmp/depth\n"
       "Noise by distance and angle, of depth and of borders, the steps of depth, shadows, and "
@@ -22,9 +22,9 @@ void AddDepthCommand(CLI::App& program, int& exit_code) {
       "is published and what the constants predict. Takes about two minutes.");
   const auto folder = std::make_shared<std::filesystem::path>();
   const auto seed = std::make_shared<uint64_t>(1);
-  command->add_option("DIR", *folder, "Folder for tables and pictures")->required();
-  command->add_option("--seed", *seed, "Of the noise")->capture_default_str();
-  command->callback([folder, seed, &exit_code] {
+  command.AddOption("DIR", *folder, "Folder for tables and pictures").Required();
+  command.AddOption("--seed", *seed, "Of the noise").ShowDefault();
+  command.Action([folder, seed] {
     StructuredLightOptions options;
     const DepthCurves parametric = MeasureDepthCurves(options, RandomStream(*seed));
     options.depth_model = DepthModel::kMatched;
@@ -33,7 +33,7 @@ void AddDepthCommand(CLI::App& program, int& exit_code) {
     WriteFileAtomically(*folder / "depth_curves.md", report);
     WritePng(*folder / "depth_curves.png", DepthCurvesPicture(parametric, speckle));
     fmt::print("{}\nIn {}: depth_curves.md, depth_curves.png\n", report, folder->string());
-    exit_code = kDone;
+    return kDone;
   });
 }
 

@@ -53,56 +53,55 @@ void DetectRgbd(const DetectArguments& arguments) {
   Detect(arguments, observation, calibration, SensorKind::kRgbd);
 }
 
-void AddCommonOptions(CLI::App& command, DetectArguments& arguments,
+void AddCommonOptions(Command command, DetectArguments& arguments,
                       const std::string& default_detector) {
   arguments.detector.detector = default_detector;
-  command.add_option("--calibration", arguments.calibration, "Calibration file (YAML)")->required();
+  command.AddOption("--calibration", arguments.calibration, "Calibration file (YAML)").Required();
   AddDetectorOptions(command, arguments.detector);
-  command.add_flag("--json", arguments.json, "Print JSON");
-  command.add_option("--pictures", arguments.pictures, "Folder for the pictures of every stage");
+  command.AddFlag("--json", arguments.json, "Print JSON");
+  command.AddOption("--pictures", arguments.pictures, "Folder for the pictures of every stage");
 }
 
 }  // namespace
 
-void AddDetectCommand(CLI::App& program, int& exit_code) {
-  CLI::App* detect = program.add_subcommand("detect", "Runs a detector on recorded image files");
-  detect->require_subcommand(1);
-  detect->footer(
+void AddDetectCommand(Command program) {
+  Command detect = program.AddCommand("detect", "Runs a detector on recorded image files");
+  detect.RequireCommand();
+  detect.Footer(
       "Example:\n"
       "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml --json\n"
       "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml "
       "--command '[python3, mine.py]'");
 
-  CLI::App* stereo = detect->add_subcommand("stereo", "On a pair of grey images");
+  Command stereo = detect.AddCommand("stereo", "On a pair of grey images");
   const auto stereo_arguments = std::make_shared<DetectArguments>();
-  stereo->add_option("--left", stereo_arguments->left, "Left image, 8-bit grey")->required();
-  stereo->add_option("--right", stereo_arguments->right, "Right image, 8-bit grey")->required();
-  AddCommonOptions(*stereo, *stereo_arguments, "paper-stereo");
-  stereo->footer(
+  stereo.AddOption("--left", stereo_arguments->left, "Left image, 8-bit grey").Required();
+  stereo.AddOption("--right", stereo_arguments->right, "Right image, 8-bit grey").Required();
+  AddCommonOptions(stereo, *stereo_arguments, "paper-stereo");
+  stereo.Footer(
       "Example:\n"
       "  fenestra detect stereo --left L.png --right R.png --calibration stereo.yaml "
       "--pictures /tmp/stages");
-  stereo->callback([stereo_arguments, &exit_code] {
+  stereo.Action([stereo_arguments] {
     DetectStereo(*stereo_arguments);
-    exit_code = kDone;
+    return kDone;
   });
 
-  CLI::App* rgbd = detect->add_subcommand("rgbd", "On a colour image and a depth image");
+  Command rgbd = detect.AddCommand("rgbd", "On a colour image and a depth image");
   const auto rgbd_arguments = std::make_shared<DetectArguments>();
-  rgbd->add_option("--color", rgbd_arguments->color, "Colour image, 8 bits")->required();
-  rgbd->add_option("--depth", rgbd_arguments->depth, "Depth image, 16 bits, 0: no return")
-      ->required();
-  rgbd->add_option("--depth-scale", rgbd_arguments->depth_scale,
-                   "Units per metre; default: as the calibration says")
-      ->check(Positive());
-  AddCommonOptions(*rgbd, *rgbd_arguments, "paper-rgbd");
-  rgbd->footer(
+  rgbd.AddOption("--color", rgbd_arguments->color, "Colour image, 8 bits").Required();
+  rgbd.AddOption("--depth", rgbd_arguments->depth, "Depth image, 16 bits, 0: no return").Required();
+  rgbd.AddOption("--depth-scale", rgbd_arguments->depth_scale,
+                 "Units per metre; default: as the calibration says")
+      .Positive();
+  AddCommonOptions(rgbd, *rgbd_arguments, "paper-rgbd");
+  rgbd.Footer(
       "Example:\n"
       "  fenestra detect rgbd --color C.png --depth D.png --depth-scale 5000 "
       "--calibration rgbd.yaml");
-  rgbd->callback([rgbd_arguments, &exit_code] {
+  rgbd.Action([rgbd_arguments] {
     DetectRgbd(*rgbd_arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

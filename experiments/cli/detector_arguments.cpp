@@ -74,23 +74,22 @@ DetectorChoice ProgramChoice(const DetectorArguments& arguments, SensorKind sens
 
 }  // namespace
 
-void AddDetectorOptions(CLI::App& command, DetectorArguments& arguments) {
-  CLI::Option* const detector =
-      command.add_option("--detector", arguments.detector, "Name of the detector")
-          ->capture_default_str();
+void AddDetectorOptions(Command command, DetectorArguments& arguments) {
+  const Option detector =
+      command.AddOption("--detector", arguments.detector, "Name of the detector").ShowDefault();
   command
-      .add_option("--option", arguments.options,
-                  "NAME=VALUE of the detector; may be given several times")
-      ->allow_extra_args(false);
+      .AddOption("--option", arguments.options,
+                 "NAME=VALUE of the detector; may be given several times")
+      .OneValueEach();
   command
-      .add_option("--command", arguments.command,
-                  "A program that is the detector: '[python3, mine.py]'")
-      ->excludes(detector);
-  command.add_flag("--isolate", arguments.isolate, "Run the detector in a process of its own");
+      .AddOption("--command", arguments.command,
+                 "A program that is the detector: '[python3, mine.py]'")
+      .Excludes(detector);
+  command.AddFlag("--isolate", arguments.isolate, "Run the detector in a process of its own");
   command
-      .add_option("--time-limit-s", arguments.time_limit_s,
-                  "For an answer of a detector that runs in a process of its own")
-      ->check(Positive());
+      .AddOption("--time-limit-s", arguments.time_limit_s,
+                 "For an answer of a detector that runs in a process of its own")
+      .Positive();
   AddPluginOption(command, arguments.plugins);
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiments/cli/command_line.h"
 #include "experiments/study.h"
 
 namespace fenestra::cli {
@@ -21,7 +21,7 @@ struct DetectorArguments {
 };
 
 /// --detector, --option, --command, --isolate, --time-limit-s, --plugin.
-void AddDetectorOptions(CLI::App& command, DetectorArguments& arguments);
+void AddDetectorOptions(Command command, DetectorArguments& arguments);
 
 /// Loads the plugins and finds the detector. Throws InputError for what does not exist, does not
 /// work on the sensor or has no such option.

@@ -99,56 +99,50 @@ void Emva(const EmvaArguments& arguments) {
 }
 
 // A recorded series is what it is. (CLI11's excludes() would fill the help with names.)
-void RefuseOthers(const CLI::App& command) {
-  for (const CLI::Option* option : command.get_options()) {
-    const bool named = !option->get_lnames().empty() && option->count() > 0;
-    if (named && option->get_name() != "--evaluate-only") {
-      throw InputError(option->get_name(), "does not apply with --evaluate-only");
+void RefuseOthers(const Command& command) {
+  for (const std::string& option : command.GivenOptions()) {
+    if (option != "--evaluate-only") {
+      throw InputError(option, "does not apply with --evaluate-only");
     }
   }
 }
 
 }  // namespace
 
-void AddEmvaCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddEmvaCommand(Command program) {
+  Command command = program.AddCommand(
       "emva", "Takes an EMVA 1288 series with the stereo camera's sensor and evaluates it");
-  command->footer(
+  command.Footer(
       "Examples:\n"
       "  fenestra emva /tmp/emva\n"
       "  fenestra emva /tmp/emva --output-bits 8 --gain 4 --set stereo_read_noise_e=16\n"
       "  fenestra emva my_camera --evaluate-only     frames of a real camera and their "
       "emva1288.txt");
   const auto arguments = std::make_shared<EmvaArguments>();
-  command->add_option("DIR", arguments->folder, "Folder for the series and its figures")
-      ->required();
-  command->add_flag("--evaluate-only", arguments->evaluate_only,
-                    "Evaluate the series that is in DIR; no other option applies then");
-  command->add_option("--output-bits", arguments->output_bits, "Bits of the frames")
-      ->capture_default_str();
-  command->add_option("--gain", arguments->simulation.gain, "Analogue gain")
-      ->check(Positive())
-      ->capture_default_str();
-  command->add_option("--wavelength-nm", arguments->simulation.wavelength_nm, "Of the light")
-      ->capture_default_str();
+  command.AddOption("DIR", arguments->folder, "Folder for the series and its figures").Required();
+  command.AddFlag("--evaluate-only", arguments->evaluate_only,
+                  "Evaluate the series that is in DIR; no other option applies then");
+  command.AddOption("--output-bits", arguments->output_bits, "Bits of the frames").ShowDefault();
+  command.AddOption("--gain", arguments->simulation.gain, "Analogue gain").Positive().ShowDefault();
+  command.AddOption("--wavelength-nm", arguments->simulation.wavelength_nm, "Of the light")
+      .ShowDefault();
   command
-      ->add_option("--exposures", arguments->simulation.exposures,
-                   "Exposures up to saturation; the standard asks for 50")
-      ->capture_default_str();
+      .AddOption("--exposures", arguments->simulation.exposures,
+                 "Exposures up to saturation; the standard asks for 50")
+      .ShowDefault();
   command
-      ->add_option("--frames", arguments->simulation.frames,
-                   "Frames of each stack for the spatial figures")
-      ->capture_default_str();
-  command->add_option("--width-px", arguments->width_px, "Of the frames")->capture_default_str();
-  command->add_option("--height-px", arguments->height_px, "Of the frames")->capture_default_str();
-  command->add_option("--set", arguments->set,
-                      "FACTOR=VALUE, a stereo_… factor of the sensor itself; several times");
-  command->add_option("--seed", arguments->seed, "Of the camera and its noise")
-      ->capture_default_str();
-  command->callback([command, arguments, &exit_code] {
-    if (arguments->evaluate_only) RefuseOthers(*command);
+      .AddOption("--frames", arguments->simulation.frames,
+                 "Frames of each stack for the spatial figures")
+      .ShowDefault();
+  command.AddOption("--width-px", arguments->width_px, "Of the frames").ShowDefault();
+  command.AddOption("--height-px", arguments->height_px, "Of the frames").ShowDefault();
+  command.AddOption("--set", arguments->set,
+                    "FACTOR=VALUE, a stereo_… factor of the sensor itself; several times");
+  command.AddOption("--seed", arguments->seed, "Of the camera and its noise").ShowDefault();
+  command.Action([command, arguments] {
+    if (arguments->evaluate_only) RefuseOthers(command);
     Emva(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

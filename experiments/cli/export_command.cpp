@@ -36,23 +36,22 @@ void Export(const ExportArguments& arguments) {
 
 }  // namespace
 
-void AddExportCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddExportCommand(Command program) {
+  Command command = program.AddCommand(
       "export", "Writes the scene of one trial as glTF, with the cameras and the target in it");
-  command->footer(
+  command.Footer(
       "Example:\n"
       "  fenestra export facade --cell 0 --out facade.glb\n"
       "The file opens in any glTF viewer, and in `fenestra render` with the same truth.");
   const auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
-  command->add_option("--cell", arguments->cell, "Index of the study's cell")
-      ->capture_default_str();
-  command->add_option("--trial", arguments->trial, "Index of the trial")->capture_default_str();
-  command->add_option("--out", arguments->out, "A .gltf or .glb file")->required();
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] {
+  command.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
+  command.AddOption("--cell", arguments->cell, "Index of the study's cell").ShowDefault();
+  command.AddOption("--trial", arguments->trial, "Index of the trial").ShowDefault();
+  command.AddOption("--out", arguments->out, "A .gltf or .glb file").Required();
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] {
     Export(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

@@ -134,10 +134,10 @@ int Verify(const FixtureArguments& arguments) {
 
 }  // namespace
 
-void AddFixturesCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddFixturesCommand(Command program) {
+  Command command = program.AddCommand(
       "fixtures", "Writes trials as files for the tests of other programs, with their truth");
-  command->footer(
+  command.Footer(
       "Examples:\n"
       "  fenestra fixtures paper --out fixtures                   the first trial of each cell\n"
       "  fenestra fixtures paper --trials 0-4 --where 'sensor = rgbd and distance_m <= 2' "
@@ -146,30 +146,30 @@ void AddFixturesCommand(CLI::App& program, int& exit_code) {
       "  fenestra fixtures --verify fixtures\n"
       "The same command makes the same bytes. docs/fixtures.md describes the files.");
   const auto arguments = std::make_shared<FixtureArguments>();
-  command->add_option("STUDY|RESULTS", arguments->study,
-                      "Name or file of a study, or the results of one");
-  command->add_option("--out", arguments->out, "Folder for the files, new or empty");
+  command.AddOption("STUDY|RESULTS", arguments->study,
+                    "Name or file of a study, or the results of one");
+  command.AddOption("--out", arguments->out, "Folder for the files, new or empty");
   command
-      ->add_option("--trials", arguments->selection.trials,
-                   "Trials of each cell (0-4), or CELL/TRIALS (7/3,8/0-2)")
-      ->capture_default_str();
-  command->add_option("--cells", arguments->selection.cells, "Only these cells (0,3-5)");
-  command->add_option("--where", arguments->selection.where,
-                      "Only trials with these values, as in the where of a bound");
+      .AddOption("--trials", arguments->selection.trials,
+                 "Trials of each cell (0-4), or CELL/TRIALS (7/3,8/0-2)")
+      .ShowDefault();
+  command.AddOption("--cells", arguments->selection.cells, "Only these cells (0,3-5)");
+  command.AddOption("--where", arguments->selection.where,
+                    "Only trials with these values, as in the where of a bound");
   command
-      ->add_option("--format", arguments->formats,
-                   "bundle, tum (RGB-D), euroc (stereo), several with commas, or all")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"bundle", "tum", "euroc", "all"}))
-      ->capture_default_str();
-  AddPluginOption(*command, arguments->plugins);
-  AddSeedOption(*command, arguments->seed);
-  AddJobsOption(*command, arguments->jobs);
-  command->add_flag("--dry-run", arguments->dry_run, "Show the trials and the size, write nothing");
-  command->add_option("--verify", arguments->verify,
-                      "Check that this folder's files are those that were written");
-  command->callback([arguments, &exit_code] {
-    exit_code = arguments->verify.empty() ? MakeFixtures(*arguments) : Verify(*arguments);
+      .AddOption("--format", arguments->formats,
+                 "bundle, tum (RGB-D), euroc (stereo), several with commas, or all")
+      .Delimiter(',')
+      .OneOf({"bundle", "tum", "euroc", "all"})
+      .ShowDefault();
+  AddPluginOption(command, arguments->plugins);
+  AddSeedOption(command, arguments->seed);
+  AddJobsOption(command, arguments->jobs);
+  command.AddFlag("--dry-run", arguments->dry_run, "Show the trials and the size, write nothing");
+  command.AddOption("--verify", arguments->verify,
+                    "Check that this folder's files are those that were written");
+  command.Action([arguments] {
+    return arguments->verify.empty() ? MakeFixtures(*arguments) : Verify(*arguments);
   });
 }
 

@@ -45,27 +45,28 @@ void ListStudies() {
 
 }  // namespace
 
-void AddListCommand(CLI::App& program, int& exit_code) {
-  CLI::App* list = program.add_subcommand("list", "Shows detectors, factors or studies");
-  list->footer(
+void AddListCommand(Command program) {
+  Command list = program.AddCommand("list", "Shows detectors, factors or studies");
+  list.Footer(
       "Example:\n"
       "  fenestra list factors | grep window");
-  list->require_subcommand(1);
-  CLI::App* detectors =
-      list->add_subcommand("detectors", "All detectors and their options with defaults");
+  list.RequireCommand();
+  Command detectors = list.AddCommand("detectors", "All detectors and their options with defaults");
   const auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
-  AddPluginOption(*detectors, *plugins);
-  detectors->callback([plugins] {
+  AddPluginOption(detectors, *plugins);
+  detectors.Action([plugins] {
     LoadPlugins(*plugins);
     ListDetectors();
+    return kDone;
   });
-  list->add_subcommand("factors", "All that a study can vary, with defaults")->callback([] {
+  list.AddCommand("factors", "All that a study can vary, with defaults").Action([] {
     PrintParameters(Factors().infos(), "");
+    return kDone;
   });
-  list->add_subcommand("studies", "The studies that come with the program")->callback([] {
+  list.AddCommand("studies", "The studies that come with the program").Action([] {
     ListStudies();
+    return kDone;
   });
-  list->callback([&exit_code] { exit_code = kDone; });
 }
 
 }  // namespace fenestra::cli

@@ -4,11 +4,11 @@
 
 namespace fenestra::cli {
 
-void AddPluginOption(CLI::App& command, std::vector<std::filesystem::path>& plugins) {
+void AddPluginOption(Command command, std::vector<std::filesystem::path>& plugins) {
   command
-      .add_option("--plugin", plugins, "Shared library with detectors; may be given several times")
-      ->type_name("LIBRARY")
-      ->allow_extra_args(false);
+      .AddOption("--plugin", plugins, "Shared library with detectors; may be given several times")
+      .TypeName("LIBRARY")
+      .OneValueEach();
 }
 
 void LoadPlugins(const std::vector<std::filesystem::path>& plugins) {

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "experiments/cli/command_line.h"
 #include "experiments/detector_maker.h"
 
 namespace fenestra::cli {
 
 /// --plugin LIBRARY, as often as one likes.
-void AddPluginOption(CLI::App& command, std::vector<std::filesystem::path>& plugins);
+void AddPluginOption(Command command, std::vector<std::filesystem::path>& plugins);
 
 /// Throws InputError (see LoadPlugin).
 void LoadPlugins(const std::vector<std::filesystem::path>& plugins);

@@ -11,10 +11,10 @@
 
 namespace fenestra::cli {
 
-void AddRatiosCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddRatiosCommand(Command program) {
+  Command command = program.AddCommand(
       "ratios", "Compares the levels of one factor in a study's results, trial by trial");
-  command->footer(
+  command.Footer(
       "Example:\n"
       "  fenestra ratios results/depth_models --factor rgbd_depth_model\n"
       "RMSE and P95 of the centroid error under each level over those under the first one, with 90 "
@@ -22,12 +22,12 @@ void AddRatiosCommand(CLI::App& program, int& exit_code) {
       "bootstrap intervals: trials of one index have the same poses under all levels.");
   const auto results = std::make_shared<std::filesystem::path>();
   const auto factor = std::make_shared<std::string>();
-  command->add_option("RESULTS", *results, "Results folder or its results.sqlite")->required();
-  command->add_option("--factor", *factor, "A factor with levels")->required();
-  command->callback([results, factor, &exit_code] {
+  command.AddOption("RESULTS", *results, "Results folder or its results.sqlite").Required();
+  command.AddOption("--factor", *factor, "A factor with levels").Required();
+  command.Action([results, factor] {
     const std::vector<TrialRecord> rows = ResultStore::OpenReadOnly(StoreFile(*results)).Rows();
     fmt::print("{}", PairedRatioTable(PairsBy(rows, *factor), *factor, RandomStream(1)));
-    exit_code = kDone;
+    return kDone;
   });
 }
 

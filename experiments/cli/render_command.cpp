@@ -82,24 +82,24 @@ void RenderScene(RenderArguments arguments) {
              arguments.out.string());
 }
 
-void AddSceneOptions(CLI::App& command, RenderArguments& arguments) {
+void AddSceneOptions(Command command, RenderArguments& arguments) {
   const auto add = [&command](const char* name, auto& value, const char* help) {
-    return command.add_option(name, value, help)->group("Scene files");
+    return command.AddOption(name, value, help).Group("Scene files");
   };
   add("--target", arguments.target, "Name of the node that is the target window");
   add("--camera", arguments.view.camera, "Only this camera of the file");
   add("--width", arguments.view.width_px, "Of the picture, if the file has no camera [px]")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
+      .Within(16, 8192)
+      .ShowDefault();
   add("--height", arguments.view.height_px, "Of the picture, if the file has no camera [px]")
-      ->check(CLI::Range(16, 8192))
-      ->capture_default_str();
-  add("--sky", arguments.sky_model, "How the sky's light is spread")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Sky::Model>{{"uniform", Sky::Model::kUniform},
-                                            {"cie_overcast", Sky::Model::kCieOvercast},
-                                            {"cie_clear", Sky::Model::kCieClear}}));
-  add("--sky-lx", arguments.sky_lx, "Illuminance by the sky [lx]")->capture_default_str();
+      .Within(16, 8192)
+      .ShowDefault();
+  const std::map<std::string, Sky::Model> skies = {{"uniform", Sky::Model::kUniform},
+                                                   {"cie_overcast", Sky::Model::kCieOvercast},
+                                                   {"cie_clear", Sky::Model::kCieClear}};
+  command.AddChoice("--sky", arguments.sky_model, skies, "How the sky's light is spread")
+      .Group("Scene files");
+  add("--sky-lx", arguments.sky_lx, "Illuminance by the sky [lx]").ShowDefault();
   add("--sun-lx", arguments.sun_lx, "Illuminance by the sun; else as in the file, or 0 [lx]");
   add("--sun-azimuth-deg", arguments.sun_azimuth_deg, "From +z towards +x");
   add("--sun-elevation-deg", arguments.sun_elevation_deg, "Above the horizon");
@@ -107,10 +107,10 @@ void AddSceneOptions(CLI::App& command, RenderArguments& arguments) {
 
 }  // namespace
 
-void AddRenderCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
+void AddRenderCommand(Command program) {
+  Command command = program.AddCommand(
       "render", "Writes the observation and the truth of one trial, or views of a scene file");
-  command->footer(
+  command.Footer(
       "Examples:\n"
       "  fenestra render paper --cell 2 --trial 5 --out /tmp/trial\n"
       "  fenestra render house.glb --sky cie_clear --sun-lx 60000 --out /tmp/house\n"
@@ -119,27 +119,24 @@ void AddRenderCommand(CLI::App& program, int& exit_code) {
       "Of a glTF file, DIR gets a folder for each camera with pictures and per-pixel truth.");
   const auto arguments = std::make_shared<RenderArguments>();
   command
-      ->add_option("STUDY|SCENE", arguments->what,
-                   "Name or file of a study, or a .gltf or .glb file")
-      ->required();
-  command->add_option("--cell", arguments->cell, "Index of the study's cell")
-      ->capture_default_str();
-  command->add_option("--trial", arguments->trial, "Index of the trial")->capture_default_str();
-  command
-      ->add_option("--sequence", arguments->sequence,
-                   "Every trial of this sensor, as a sequence that 'score' reads")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, SensorKind>{
-          {"stereo", SensorKind::kStereo}, {"rgbd", SensorKind::kRgbd}}));
-  AddPluginOption(*command, arguments->plugins);
-  command->add_option("--out", arguments->out, "Folder for the files")->required();
-  AddSceneOptions(*command, *arguments);
-  command->callback([arguments, &exit_code] {
+      .AddOption("STUDY|SCENE", arguments->what, "Name or file of a study, or a .gltf or .glb file")
+      .Required();
+  command.AddOption("--cell", arguments->cell, "Index of the study's cell").ShowDefault();
+  command.AddOption("--trial", arguments->trial, "Index of the trial").ShowDefault();
+  const std::map<std::string, SensorKind> sensors = {{"stereo", SensorKind::kStereo},
+                                                     {"rgbd", SensorKind::kRgbd}};
+  command.AddChoice("--sequence", arguments->sequence, sensors,
+                    "Every trial of this sensor, as a sequence that 'score' reads");
+  AddPluginOption(command, arguments->plugins);
+  command.AddOption("--out", arguments->out, "Folder for the files").Required();
+  AddSceneOptions(command, *arguments);
+  command.Action([arguments] {
     if (IsSceneFile(arguments->what)) {
       RenderScene(*arguments);
     } else {
       RenderTrial(*arguments);
     }
-    exit_code = kDone;
+    return kDone;
   });
 }
 

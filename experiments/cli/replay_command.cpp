@@ -79,19 +79,19 @@ int Replay(const ReplayArguments& arguments) {
 
 }  // namespace
 
-void AddReplayCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("replay", "Runs one recorded trial again");
-  command->footer(
+void AddReplayCommand(Command program) {
+  Command command = program.AddCommand("replay", "Runs one recorded trial again");
+  command.Footer(
       "Example:\n"
       "  fenestra replay results/paper 7/3 --out /tmp/trial\n"
       "With --out, DIR gets the trial's files as 'render' writes them, and every stage picture.");
   const auto arguments = std::make_shared<ReplayArguments>();
-  command->add_option("RESULTS", arguments->results, "Results folder or its results.sqlite")
-      ->required();
-  command->add_option("CELL/TRIAL", arguments->trial, "Which trial, for example 7/3")->required();
-  command->add_option("--out", arguments->out, "Folder for pictures and files");
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] { exit_code = Replay(*arguments); });
+  command.AddOption("RESULTS", arguments->results, "Results folder or its results.sqlite")
+      .Required();
+  command.AddOption("CELL/TRIAL", arguments->trial, "Which trial, for example 7/3").Required();
+  command.AddOption("--out", arguments->out, "Folder for pictures and files");
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] { return Replay(*arguments); });
 }
 
 }  // namespace fenestra::cli

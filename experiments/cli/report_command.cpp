@@ -22,34 +22,36 @@ void Report(const ReportArguments& arguments) {
   const std::filesystem::path file = StoreFile(arguments.results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
   const std::filesystem::path out = arguments.out.empty() ? file.parent_path() : arguments.out;
-  const std::vector<CellSummary> summaries = WriteResultFiles(store, out);
+  const Study study = StudyOf(store, file);
+  const std::vector<Cell> cells = Cells(study);
+  const std::vector<CellSummary> summaries = WriteResultFiles(store, study, cells, out);
   if (arguments.pictures) {
-    WriteResultPictures(store, file, out, arguments.jobs, MakerWith(arguments.plugins));
+    WriteResultPictures(store, study, cells, out, arguments.jobs, MakerWith(arguments.plugins));
   }
   PrintResult(summaries, out);
 }
 
 }  // namespace
 
-void AddReportCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command =
-      program.add_subcommand("report", "Makes tables and files from a stored result again");
-  command->footer(
+void AddReportCommand(Command program) {
+  Command command =
+      program.AddCommand("report", "Makes tables and files from a stored result again");
+  command.Footer(
       "Example:\n"
       "  fenestra report results/paper --out /tmp/paper --pictures\n"
       "Works on results.sqlite alone, also while a run is writing it.");
   const auto arguments = std::make_shared<ReportArguments>();
-  command->add_option("RESULTS", arguments->results, "Results folder or its results.sqlite")
-      ->required();
-  command->add_option("--out", arguments->out, "Folder for the files; default: where the rows are");
-  command->add_flag("--pictures", arguments->pictures,
-                    "Runs the first trial of each cell again for its pictures");
-  command->add_option("--jobs", arguments->jobs, "Trials at the same time, for the pictures")
-      ->check(CLI::Range(1, 1024));
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] {
+  command.AddOption("RESULTS", arguments->results, "Results folder or its results.sqlite")
+      .Required();
+  command.AddOption("--out", arguments->out, "Folder for the files; default: where the rows are");
+  command.AddFlag("--pictures", arguments->pictures,
+                  "Runs the first trial of each cell again for its pictures");
+  command.AddOption("--jobs", arguments->jobs, "Trials at the same time, for the pictures")
+      .Within(1, 1024);
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] {
     Report(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

@@ -41,9 +41,9 @@ int Run(const RunArguments& arguments) {
 
 }  // namespace
 
-void AddRunCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("run", "Runs a study and prints its table");
-  command->footer(
+void AddRunCommand(Command program) {
+  Command command = program.AddCommand("run", "Runs a study and prints its table");
+  command.Footer(
       "Example:\n"
       "  fenestra run paper --trials 50 --jobs 4 --out /tmp/paper\n"
       "STUDY is a name that 'fenestra list studies' shows, or a file.\n"
@@ -51,14 +51,14 @@ void AddRunCommand(CLI::App& program, int& exit_code) {
       "all\n"
       "finished trials stored and exit code 3.");
   const auto arguments = std::make_shared<RunArguments>();
-  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
-  AddStudyRunOptions(*command, arguments->run);
-  command->add_option("--shard", arguments->shard,
-                      "I/N: only the I-th of N shares of the trials, I from 1; see 'merge'");
-  command->add_flag("--restart", arguments->restart, "Replaces the result that is there");
-  command->add_flag("--no-pictures", arguments->no_pictures,
-                    "Without pictures of each cell's first trial");
-  command->callback([arguments, &exit_code] { exit_code = Run(*arguments); });
+  command.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
+  AddStudyRunOptions(command, arguments->run);
+  command.AddOption("--shard", arguments->shard,
+                    "I/N: only the I-th of N shares of the trials, I from 1; see 'merge'");
+  command.AddFlag("--restart", arguments->restart, "Replaces the result that is there");
+  command.AddFlag("--no-pictures", arguments->no_pictures,
+                  "Without pictures of each cell's first trial");
+  command.Action([arguments] { return Run(*arguments); });
 }
 
 }  // namespace fenestra::cli

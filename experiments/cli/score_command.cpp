@@ -75,29 +75,29 @@ void Score(const ScoreArguments& arguments) {
 
 }  // namespace
 
-void AddScoreCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "score", "Compares detections on a recorded sequence with surveyed truth");
-  command->footer(
+void AddScoreCommand(Command program) {
+  Command command =
+      program.AddCommand("score", "Compares detections on a recorded sequence with surveyed truth");
+  command.Footer(
       "Example:\n"
       "  fenestra score corridor/sequence.yaml --detector edge-stereo --out /tmp/corridor\n"
       "  fenestra score corridor/sequence.yaml --detections mine=mine.json\n"
       "SEQUENCE lists the frames and what was surveyed of each; docs/score.md says how.");
   const auto arguments = std::make_shared<ScoreArguments>();
-  command->add_option("SEQUENCE", arguments->sequence, "File that lists the frames")->required();
-  command->add_option("--out", arguments->out, "Results folder; default: results/<name>");
+  command.AddOption("SEQUENCE", arguments->sequence, "File that lists the frames").Required();
+  command.AddOption("--out", arguments->out, "Results folder; default: results/<name>");
   command
-      ->add_option("--detector", arguments->detectors,
-                   "Only this one of the sequence's detectors; may be given several times")
-      ->allow_extra_args(false);
+      .AddOption("--detector", arguments->detectors,
+                 "Only this one of the sequence's detectors; may be given several times")
+      .OneValueEach();
   command
-      ->add_option("--detections", arguments->detections,
-                   "LABEL=FILE: what 'detect --json' printed, frame by frame")
-      ->allow_extra_args(false);
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] {
+      .AddOption("--detections", arguments->detections,
+                 "LABEL=FILE: what 'detect --json' printed, frame by frame")
+      .OneValueEach();
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] {
     Score(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

@@ -58,20 +58,20 @@ void Serve(const ServeArguments& arguments) {
 
 }  // namespace
 
-void AddServeCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand(
-      "serve", "Answers requests for a detector on standard input and output");
-  command->footer(
+void AddServeCommand(Command program) {
+  Command command =
+      program.AddCommand("serve", "Answers requests for a detector on standard input and output");
+  command.Footer(
       "Example:\n"
       "  fenestra serve edge-stereo --plugin libmine.so\n"
       "This is the other end of a detector with `command:` or `isolate: true` in a study; see\n"
       "docs/own_detectors.md for what is said.");
   const auto arguments = std::make_shared<ServeArguments>();
-  command->add_option("DETECTOR", arguments->detector, "Name of the detector")->required();
-  AddPluginOption(*command, arguments->plugins);
-  command->callback([arguments, &exit_code] {
+  command.AddOption("DETECTOR", arguments->detector, "Name of the detector").Required();
+  AddPluginOption(command, arguments->plugins);
+  command.Action([arguments] {
     Serve(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

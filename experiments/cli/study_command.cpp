@@ -16,7 +16,7 @@
 namespace fenestra::cli {
 namespace {
 
-struct CheckArguments {
+struct StudyCheckArguments {
   std::string study;
   std::vector<std::filesystem::path> plugins;
 };
@@ -27,7 +27,7 @@ struct ExplainArguments {
   int probes = 1;
 };
 
-void Check(const CheckArguments& arguments) {
+void Check(const StudyCheckArguments& arguments) {
   LoadPlugins(arguments.plugins);
   const Study study = ReadStudyFile(FindStudy(arguments.study), Detectors());
   fmt::print("'{}' is sound: {} cells, {} trials.\n", study.name, CountCells(study),
@@ -41,66 +41,65 @@ void Explain(const ExplainArguments& arguments) {
                              run.jobs));
 }
 
-void AddExplain(CLI::App& study, int& exit_code) {
-  CLI::App* explain = study.add_subcommand(
+void AddExplain(Command study) {
+  Command explain = study.AddCommand(
       "explain", "Shows what a study would run, how long it would take and how large it would be");
-  explain->footer(
+  explain.Footer(
       "Example:\n"
       "  fenestra study explain paper --probe 3 --jobs 8\n"
       "Times are measured on this machine, by running trials of the first and the last cell of "
       "each "
       "part and sensor.");
   const auto arguments = std::make_shared<ExplainArguments>();
-  explain->add_option("STUDY", arguments->study, "Name or file of a study")->required();
+  explain.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
   explain
-      ->add_option("--probe", arguments->probes,
-                   "Trials to run of each of these cells; 0: none, and no times")
-      ->check(CLI::Range(0, 1000))
-      ->capture_default_str();
-  AddJobsOption(*explain, arguments->run.jobs);
-  AddStudyOptions(*explain, arguments->run);
-  explain->callback([arguments, &exit_code] {
+      .AddOption("--probe", arguments->probes,
+                 "Trials to run of each of these cells; 0: none, and no times")
+      .Within(0, 1000)
+      .ShowDefault();
+  AddJobsOption(explain, arguments->run.jobs);
+  AddStudyOptions(explain, arguments->run);
+  explain.Action([arguments] {
     Explain(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 
 }  // namespace
 
-void AddStudyCommand(CLI::App& program, int& exit_code) {
-  CLI::App* study = program.add_subcommand("study", "Checks and explains study files");
-  study->require_subcommand(1);
-  study->footer(
+void AddStudyCommand(Command program) {
+  Command study = program.AddCommand("study", "Checks and explains study files");
+  study.RequireCommand();
+  study.Footer(
       "Example:\n"
       "  fenestra study check my_study.yaml");
 
-  CLI::App* check = study->add_subcommand("check", "Reports every fault of a study file");
-  check->footer(
+  Command check = study.AddCommand("check", "Reports every fault of a study file");
+  check.Footer(
       "Example:\n"
       "  fenestra study check my_study.yaml\n"
       "Exit codes: 0 sound, 2 faulty; each fault has its line and column.");
-  const auto arguments = std::make_shared<CheckArguments>();
-  check->add_option("STUDY", arguments->study, "Name or file of a study")->required();
-  AddPluginOption(*check, arguments->plugins);
-  check->callback([arguments, &exit_code] {
+  const auto arguments = std::make_shared<StudyCheckArguments>();
+  check.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
+  AddPluginOption(check, arguments->plugins);
+  check.Action([arguments] {
     Check(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 
-  AddExplain(*study, exit_code);
+  AddExplain(study);
 
-  CLI::App* schema =
-      study->add_subcommand("schema", "Prints a JSON Schema of study files, for editors");
-  schema->footer(
+  Command schema = study.AddCommand("schema", "Prints a JSON Schema of study files, for editors");
+  schema.Footer(
       "Example:\n"
       "  fenestra study schema --out study.schema.json\n"
       "Editors with the YAML language server use it where a study's first line is\n"
       "  # yaml-language-server: $schema=study.schema.json");
   const auto out = std::make_shared<std::filesystem::path>();
-  schema->add_option("--out", *out, "File to write instead of printing");
+  schema.AddOption("--out", *out, "File to write instead of printing");
   const auto plugins = std::make_shared<std::vector<std::filesystem::path>>();
-  AddPluginOption(*schema, *plugins);
-  schema->callback([out, plugins, &exit_code] {
+  AddPluginOption(schema, *plugins);
+  schema.Action([out, plugins] {
     LoadPlugins(*plugins);
     const std::string text = StudySchema(Detectors());
     if (out->empty()) {
@@ -108,7 +107,7 @@ void AddStudyCommand(CLI::App& program, int& exit_code) {
     } else {
       WriteFileAtomically(*out, text);
     }
-    exit_code = kDone;
+    return kDone;
   });
 }
 

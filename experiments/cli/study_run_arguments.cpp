@@ -24,33 +24,33 @@ void CheckSize(const Study& study) {
 
 }  // namespace
 
-void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments) {
+void AddStudyOptions(Command command, StudyRunArguments& arguments) {
   AddSeedOption(command, arguments.seed);
-  command.add_option("--trials", arguments.trials, "Trials of each cell, instead of the study's")
-      ->check(CLI::Range(1, 1000000));
+  command.AddOption("--trials", arguments.trials, "Trials of each cell, instead of the study's")
+      .Within(1, 1000000);
   AddPluginOption(command, arguments.plugins);
 }
 
-CLI::Option* AddSeedOption(CLI::App& command, std::optional<uint64_t>& seed) {
-  return command.add_option("--seed", seed, "Instead of the study's seed")
-      ->check(CLI::Range(uint64_t{0}, uint64_t{INT64_MAX}));
+Option AddSeedOption(Command command, std::optional<uint64_t>& seed) {
+  return command.AddOption("--seed", seed, "Instead of the study's seed")
+      .Within(uint64_t{0}, uint64_t{INT64_MAX});
 }
 
-CLI::Option* AddJobsOption(CLI::App& command, int& jobs) {
-  return command.add_option("--jobs", jobs, "Trials at the same time; default: all processors")
-      ->check(CLI::Range(1, 1024));
+Option AddJobsOption(Command command, int& jobs) {
+  return command.AddOption("--jobs", jobs, "Trials at the same time; default: all processors")
+      .Within(1, 1024);
 }
 
 int JobsOrAll(int jobs) {
   return jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments) {
-  CLI::Option* out =
-      command.add_option("--out", arguments.out, "Results folder; default: results/<study>");
-  CLI::Option* jobs = AddJobsOption(command, arguments.jobs);
+std::vector<Option> AddStudyRunOptions(Command command, StudyRunArguments& arguments) {
+  Option out =
+      command.AddOption("--out", arguments.out, "Results folder; default: results/<study>");
+  Option jobs = AddJobsOption(command, arguments.jobs);
   AddStudyOptions(command, arguments);
-  return {out, jobs, command.get_option("--seed"), command.get_option("--trials")};
+  return {out, jobs, command.FindOption("--seed"), command.FindOption("--trials")};
 }
 
 StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArguments& arguments) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
+#include "experiments/cli/command_line.h"
 #include "experiments/run_study.h"
 
 namespace fenestra::cli {
@@ -20,15 +20,15 @@ struct StudyRunArguments {
 };
 
 /// --seed and --trials, which change the study; --plugin.
-void AddStudyOptions(CLI::App& command, StudyRunArguments& arguments);
+void AddStudyOptions(Command command, StudyRunArguments& arguments);
 /// --seed alone.
-CLI::Option* AddSeedOption(CLI::App& command, std::optional<uint64_t>& seed);
+Option AddSeedOption(Command command, std::optional<uint64_t>& seed);
 /// --jobs, which stays 0 where it is not given.
-CLI::Option* AddJobsOption(CLI::App& command, int& jobs);
+Option AddJobsOption(Command command, int& jobs);
 /// As many as there are processors for 0.
 int JobsOrAll(int jobs);
 /// All of these and --out. Returns all that make no sense without a run.
-std::vector<CLI::Option*> AddStudyRunOptions(CLI::App& command, StudyRunArguments& arguments);
+std::vector<Option> AddStudyRunOptions(Command command, StudyRunArguments& arguments);
 
 /// Loads the plugins and reads the study. Throws InputError.
 StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArguments& arguments);

@@ -88,29 +88,29 @@ void Submit(const SubmitArguments& arguments) {
 
 }  // namespace
 
-void AddSubmitCommand(CLI::App& program, int& exit_code) {
-  CLI::App* command = program.add_subcommand("submit", "Shares a study out over a cluster");
-  command->footer(
+void AddSubmitCommand(Command program) {
+  Command command = program.AddCommand("submit", "Shares a study out over a cluster");
+  command.Footer(
       "Example:\n"
       "  fenestra submit paper --slurm --shards 20 --out /shared/paper --sbatch=--time=1:00:00\n"
       "Submits a job array with a shard per task, and a job that merges them. All nodes must see\n"
       "this program and DIR. Submitted again, it goes on from what is stored in DIR/shards.");
   const auto arguments = std::make_shared<SubmitArguments>();
-  command->add_option("STUDY", arguments->study, "Name or file of a study")->required();
-  command->add_flag("--slurm", arguments->slurm, "To Slurm, with sbatch");
-  command->add_option("--shards", arguments->shards, "Into how many tasks the study is divided")
-      ->required()
-      ->check(CLI::Range(1, 100000));
-  AddStudyRunOptions(*command, arguments->run);
-  command->get_option("--jobs")->description("Trials at the same time in each task; default: 1");
+  command.AddOption("STUDY", arguments->study, "Name or file of a study").Required();
+  command.AddFlag("--slurm", arguments->slurm, "To Slurm, with sbatch");
+  command.AddOption("--shards", arguments->shards, "Into how many tasks the study is divided")
+      .Required()
+      .Within(1, 100000);
+  AddStudyRunOptions(command, arguments->run);
+  command.FindOption("--jobs").Describe("Trials at the same time in each task; default: 1");
   command
-      ->add_option("--sbatch", arguments->sbatch_options,
-                   "A further option for both jobs, such as --sbatch=--partition=long")
-      ->allow_extra_args(false);
-  command->add_flag("--dry-run", arguments->dry_run, "Prints what it would submit");
-  command->callback([arguments, &exit_code] {
+      .AddOption("--sbatch", arguments->sbatch_options,
+                 "A further option for both jobs, such as --sbatch=--partition=long")
+      .OneValueEach();
+  command.AddFlag("--dry-run", arguments->dry_run, "Prints what it would submit");
+  command.Action([arguments] {
     Submit(*arguments);
-    exit_code = kDone;
+    return kDone;
   });
 }
 

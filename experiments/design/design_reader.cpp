@@ -72,99 +72,87 @@ class DesignReader {
 
   std::optional<GivenDesign> Read(const YAML::Node& node) {
     given_.node = node;
-    bool good = reader_.CheckKeys(node, "a design", kDesignKeys);
+    const size_t before = reader_.fault_count();
+    reader_.CheckKeys(node, "a design", kDesignKeys);
     if (!node.IsMap()) return std::nullopt;
     if (const YAML::Node word = node["method"]; word.IsDefined()) {
-      const auto method = ReadMethod(reader_, word);
-      good = good && method.has_value();
-      if (method) given_.design.method = *method;
+      given_.design.method = ReadMethod(reader_, word).value_or(given_.design.method);
     }
-    if (const YAML::Node list = node["correlations"]; list.IsDefined()) {
-      good = ReadCorrelations(list) && good;
-    }
-    if (const YAML::Node causes = node["causes"]; causes.IsDefined()) {
-      good = ReadCauses(causes) && good;
-    }
-    if (!good || !CheckTogether()) return std::nullopt;
-    return given_;
+    if (const YAML::Node list = node["correlations"]; list.IsDefined()) ReadCorrelations(list);
+    if (const YAML::Node causes = node["causes"]; causes.IsDefined()) ReadCauses(causes);
+    if (reader_.fault_count() == before) CheckTogether();
+    return reader_.IfSoundSince(before, given_);
   }
 
  private:
-  bool Fault(const YAML::Node& at, const std::string& message) {
-    reader_.AddFault(at, message);
-    return false;
-  }
-
-  bool ReadCorrelations(const YAML::Node& node) {
+  void ReadCorrelations(const YAML::Node& node) {
     if (!node.IsSequence()) {
-      return Fault(node, fmt::format("correlations must be a list of {{between: [FACTOR, FACTOR], "
-                                     "spearman: NUMBER}}, not {}",
-                                     YamlReader::Describe(node)));
+      return reader_.AddFault(
+          node, fmt::format("correlations must be a list of {{between: [FACTOR, FACTOR], "
+                            "spearman: NUMBER}}, not {}",
+                            YamlReader::Describe(node)));
     }
-    bool good = true;
     for (const YAML::Node& item : node) {
       const auto correlation = ReadCorrelation(reader_, item);
-      good = good && correlation.has_value();
       if (!correlation) continue;
       if (!pairs_.insert({correlation->first, correlation->second}).second) {
-        good = Fault(item, fmt::format("{} and {} are correlated twice", correlation->first,
-                                       correlation->second));
+        reader_.AddFault(item, fmt::format("{} and {} are correlated twice", correlation->first,
+                                           correlation->second));
       }
       given_.design.correlations.push_back(*correlation);
       given_.correlation_nodes.push_back(item);
     }
-    return good;
   }
 
-  bool ReadCauses(const YAML::Node& node) {
+  void ReadCauses(const YAML::Node& node) {
     if (!node.IsMap() || node.size() == 0) {
-      return Fault(node, fmt::format("causes must be a mapping such as {{noise: [shot], pose: "
-                                     "[yaw_deg]}}, not {}",
-                                     YamlReader::Describe(node)));
+      return reader_.AddFault(node,
+                              fmt::format("causes must be a mapping such as {{noise: [shot], pose: "
+                                          "[yaw_deg]}}, not {}",
+                                          YamlReader::Describe(node)));
     }
     given_.causes_node = node;
-    bool good = true;
-    for (const auto& entry : node) good = ReadCause(entry.first, entry.second) && good;
-    return good;
+    for (const auto& entry : node) ReadCause(entry.first, entry.second);
   }
 
-  bool ReadCause(const YAML::Node& key, const YAML::Node& node) {
+  void ReadCause(const YAML::Node& key, const YAML::Node& node) {
     static const std::vector<std::string> streams{kShotSource, kRigSource, kCalibrationSource};
     const auto name = ReadName(reader_, key, "a cause's name");
-    if (!name) return false;
+    if (!name) return;
     if (!node.IsSequence() || node.size() == 0) {
-      return Fault(key, fmt::format("cause '{}' must be a list of drawn factors and of {}", *name,
-                                    fmt::join(streams, ", ")));
+      return reader_.AddFault(
+          key, fmt::format("cause '{}' must be a list of drawn factors and of {}", *name,
+                           fmt::join(streams, ", ")));
     }
     const auto is_it = [&name](const Cause& cause) { return cause.name == *name; };
     if (std::any_of(given_.design.causes.begin(), given_.design.causes.end(), is_it)) {
-      return Fault(key, fmt::format("two causes are called '{}'", *name));
+      return reader_.AddFault(key, fmt::format("two causes are called '{}'", *name));
     }
     Cause cause{.name = *name, .sources = {}};
     for (const YAML::Node& item : node) {
       const auto source = ReadFactorName(reader_, item, streams);
-      if (!source) return false;
+      if (!source) return;
       if (!sources_.insert(*source).second) {
-        return Fault(item, fmt::format("'{}' belongs to two causes", *source));
+        return reader_.AddFault(item, fmt::format("'{}' belongs to two causes", *source));
       }
       cause.sources.push_back(*source);
     }
     given_.design.causes.push_back(cause);
-    return true;
   }
 
-  bool CheckTogether() {
+  void CheckTogether() {
     const bool sensitivity = given_.design.method == DesignMethod::kSensitivity;
     if (sensitivity && !given_.design.correlations.empty()) {
-      return Fault(given_.correlation_nodes.front(),
-                   "a sensitivity design cannot have correlations: the shares of a variance are "
-                   "only defined for causes that are independent of each other");
+      reader_.AddFault(
+          given_.correlation_nodes.front(),
+          "a sensitivity design cannot have correlations: the shares of a variance are "
+          "only defined for causes that are independent of each other");
     }
     if (!sensitivity && !given_.design.causes.empty()) {
-      return Fault(given_.causes_node, fmt::format("causes belong to method: sensitivity, not {}",
-                                                   ToString(given_.design.method)));
+      reader_.AddFault(given_.causes_node,
+                       fmt::format("causes belong to method: sensitivity, not {}",
+                                   ToString(given_.design.method)));
     }
-    return true;
   }
 
   YamlReader& reader_;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra::emva {
 namespace {
@@ -92,14 +92,13 @@ std::vector<TransferPoint> TransferOf(const Series& series, const ImageReader& i
     if (!set.is_spatial() && set.is_dark()) dark[set.exposure_s] = Temporal(set, images);
   }
   std::vector<TransferPoint> points;
-  std::vector<InputFault> faults;
+  Faults faults("series");
   for (const ImageSet& set : series.sets) {
     if (set.is_spatial() || set.is_dark()) continue;
     const auto beside = dark.find(set.exposure_s);
     if (beside == dark.end()) {
-      faults.push_back({"series", 0, 0,
-                        fmt::format("the bright pair at {:g} ms has no dark pair beside it",
-                                    1e3 * set.exposure_s)});
+      faults.Add(fmt::format("the bright pair at {:g} ms has no dark pair beside it",
+                             1e3 * set.exposure_s));
       continue;
     }
     const MeanAndVariance bright = Temporal(set, images);
@@ -110,12 +109,10 @@ std::vector<TransferPoint> TransferOf(const Series& series, const ImageReader& i
                       .dark_mean = beside->second.mean,
                       .dark_variance = beside->second.variance});
   }
-  if (faults.empty() && points.size() < kFewestExposures) {
-    faults.push_back({"series", 0, 0,
-                      fmt::format("{} exposures with a bright and a dark pair are fewer than {}",
-                                  points.size(), kFewestExposures)});
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  faults.Require(faults.count() > 0 || points.size() >= kFewestExposures,
+                 fmt::format("{} exposures with a bright and a dark pair are fewer than {}",
+                             points.size(), kFewestExposures));
+  faults.ThrowIfAny();
   std::sort(points.begin(), points.end(),
             [](const TransferPoint& a, const TransferPoint& b) { return a.photons < b.photons; });
   return points;

@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra::emva {
 namespace {
@@ -32,15 +32,15 @@ std::optional<double> NumberIn(std::string word) {
 // Reads the lines of one descriptor and collects what is wrong with them.
 class DescriptorReader {
  public:
-  explicit DescriptorReader(const std::filesystem::path& file) : name_(file.string()) {
+  explicit DescriptorReader(const std::filesystem::path& file) : faults_(file.string()) {
     std::ifstream stream(file);
-    if (!stream) throw InputError(name_, "there is no such file, or it cannot be read");
+    if (!stream) throw InputError(file, "there is no such file, or it cannot be read");
     for (std::string line; std::getline(stream, line);) {
       ++line_;
       Read(line);
     }
     Check();
-    if (!faults_.empty()) throw InputError(std::move(faults_));
+    faults_.ThrowIfAny();
   }
 
   Series TakeSeries() { return std::move(series_); }
@@ -111,14 +111,15 @@ class DescriptorReader {
     }
   }
 
-  void Fault(const std::string& message) { faults_.push_back({name_, line_, 0, message}); }
+  void Fault(std::string message) {
+    faults_.AddFault({.line = line_, .message = std::move(message)});
+  }
 
-  std::string name_;
+  Faults faults_;
   int line_ = 0;
   Series series_;
   std::vector<int> set_lines_;
   bool in_faulty_set_ = false;  ///< Since the last line that should have begun one.
-  std::vector<InputFault> faults_;
 };
 
 }  // namespace

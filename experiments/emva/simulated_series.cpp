@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "core/atomic_file.h"
-#include "core/demands.h"
+#include "core/faults.h"
 #include "core/image_io.h"
 
 namespace fenestra::emva {
@@ -80,19 +80,19 @@ std::vector<std::string> ImageNames(const std::string& set, int count) {
 }  // namespace
 
 void Validate(const SimulationOptions& o) {
-  Demands demand("EMVA series");
-  demand(
+  Faults faults("EMVA series");
+  faults.Require(
       o.size.width >= 8 && o.size.width <= 16384 && o.size.height >= 8 && o.size.height <= 16384,
       fmt::format("frames of {} x {} px are not between 8 and 16384", o.size.width, o.size.height));
-  demand(o.exposures >= 10 && o.exposures <= 10000,
-         fmt::format("{} exposures are not between 10 and 10000", o.exposures));
-  demand(o.frames >= 3 && o.frames <= 10000,
-         fmt::format("stacks of {} frames are not between 3 and 10000", o.frames));
-  demand(o.gain > 0.0, "the gain must be positive");
-  demand(o.quantum_efficiency > 0.0 && o.quantum_efficiency <= 1.0,
-         fmt::format("the sensor sees nothing at {:g} nm", o.wavelength_nm));
-  demand(o.longest_exposure_s > 0.0, "the longest exposure must be positive");
-  demand.ThrowUnlessMet();
+  faults.Require(o.exposures >= 10 && o.exposures <= 10000,
+                 fmt::format("{} exposures are not between 10 and 10000", o.exposures));
+  faults.Require(o.frames >= 3 && o.frames <= 10000,
+                 fmt::format("stacks of {} frames are not between 3 and 10000", o.frames));
+  faults.Require(o.gain > 0.0, "the gain must be positive");
+  faults.Require(o.quantum_efficiency > 0.0 && o.quantum_efficiency <= 1.0,
+                 fmt::format("the sensor sees nothing at {:g} nm", o.wavelength_nm));
+  faults.Require(o.longest_exposure_s > 0.0, "the longest exposure must be positive");
+  faults.ThrowIfAny();
 }
 
 Series PlanSeries(const SimulationOptions& options, const ImageSensorOptions& sensor) {

@@ -45,7 +45,7 @@ std::string RangesText(const EnvelopeCurve& envelope) {
   return text;
 }
 
-constexpr const char* kHowToRead = R"md(
+constexpr const char* kHowToReadEnvelope = R"md(
 The requirement holds at a level if the lower confidence limit of each demanded share (Clopper and
 Pearson, one-sided) reaches it; a miss is never good. Elsewhere it fails, or the trials do not
 suffice to show that it holds. The confidence is that of each level by itself. Levels between those
@@ -77,7 +77,7 @@ std::string EnvelopeMarkdown(const Study& study, std::span<const EnvelopeCurve> 
     }
     text += table.ToMarkdown() + "\n";
   }
-  return text + kHowToRead;
+  return text + kHowToReadEnvelope;
 }
 
 std::string EnvelopeCsv(const Study& study, std::span<const EnvelopeCurve> envelopes) {

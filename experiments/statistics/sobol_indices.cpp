@@ -9,7 +9,7 @@
 namespace fenestra {
 namespace {
 
-constexpr int kResamples = 500;
+constexpr int kIndexResamples = 500;
 
 struct Estimates {
   std::vector<double> first;
@@ -68,7 +68,7 @@ std::optional<std::vector<SobolIndex>> SobolIndices(const Eigen::MatrixXd& rows,
   const size_t causes = whole->first.size();
   std::vector<std::vector<double>> first(causes);
   std::vector<std::vector<double>> total(causes);
-  for (uint64_t b = 0; b < kResamples; ++b) {
+  for (uint64_t b = 0; b < kIndexResamples; ++b) {
     const auto estimates = EstimatesOf(Resampled(rows, resampling.Child("resample", b)));
     if (!estimates) continue;
     for (size_t i = 0; i < causes; ++i) {

@@ -10,9 +10,9 @@ namespace fenestra {
 namespace {
 
 constexpr int kChannels = 3;
-constexpr int kBlurs = kDepthUnknowns;
-constexpr int kLevels = kBlurs + kChannels;
-constexpr int kUnknowns = kLevels + kChannels * kLevelsOfPicture;
+constexpr int kColorBlurs = kDepthUnknowns;
+constexpr int kColorLevels = kColorBlurs + kChannels;
+constexpr int kColorUnknowns = kColorLevels + kChannels * kLevelsOfPicture;
 
 // Photo-electrons of sRGB values.
 cv::Mat1f Decoded(const cv::Mat3b& color, int channel, double full_scale_e) {
@@ -33,7 +33,7 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
                                                const RgbdCalibration& cameras,
                                                const ColorCameraOptions& options,
                                                const cv::Mat3b& color, const DepthMatrix& depth) {
-  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kUnknowns, kUnknowns);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kColorUnknowns, kColorUnknowns);
   information.topLeftCorner<kDepthUnknowns, kDepthUnknowns>() = depth;
   const PixelNoise noise = PixelNoise::Encoded(options.sensor, {.exposure_s = 0.0, .gain = 1.0});
   const std::array<double, kChannels> blur = {options.blue_blur, 1.0, options.red_blur};
@@ -46,9 +46,9 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
                            .noise = noise,
                            .spread = {.centre_sigma_px = scale * options.lens.blur_sigma_px,
                                       .corner_sigma_px = scale * options.lens.corner_blur_sigma_px},
-                           .blur_unknown = kBlurs + channel,
-                           .level_unknown = kLevels + channel * kLevelsOfPicture};
-    const auto picture = PictureInformation(frame, view, kUnknowns);
+                           .blur_unknown = kColorBlurs + channel,
+                           .level_unknown = kColorLevels + channel * kLevelsOfPicture};
+    const auto picture = PictureInformation(frame, view, kColorUnknowns);
     if (!picture) return std::nullopt;
     information += *picture;
   }

@@ -7,9 +7,9 @@ namespace fenestra {
 namespace {
 
 constexpr int kPair = kFrameUnknowns;
-constexpr int kBlurs = kPair + kPairParameters;
-constexpr int kLevels = kBlurs + 2;
-constexpr int kUnknowns = kLevels + 2 * kLevelsOfPicture;
+constexpr int kPairBlurs = kPair + kPairParameters;
+constexpr int kPairLevels = kPairBlurs + 2;
+constexpr int kPairUnknowns = kPairLevels + 2 * kLevelsOfPicture;
 
 }  // namespace
 
@@ -21,20 +21,20 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
                          .electrons = pictures.left_e,
                          .noise = pictures.noise,
                          .spread = pictures.spread,
-                         .blur_unknown = kBlurs,
-                         .level_unknown = kLevels,
+                         .blur_unknown = kPairBlurs,
+                         .level_unknown = kPairLevels,
                          .camera_unknown = kPair};
   const PictureView right{.camera = cameras.right,
                           .X_VC = cameras.X_RL,
                           .electrons = pictures.right_e,
                           .noise = pictures.noise,
                           .spread = pictures.spread,
-                          .blur_unknown = kBlurs + 1,
-                          .level_unknown = kLevels + kLevelsOfPicture,
+                          .blur_unknown = kPairBlurs + 1,
+                          .level_unknown = kPairLevels + kLevelsOfPicture,
                           .camera_unknown = kPair + kCameraParameters,
                           .pose_unknown = kPair + 2 * kCameraParameters};
-  const auto by_left = PictureInformation(frame, left, kUnknowns);
-  const auto by_right = PictureInformation(frame, right, kUnknowns);
+  const auto by_left = PictureInformation(frame, left, kPairUnknowns);
+  const auto by_right = PictureInformation(frame, right, kPairUnknowns);
   if (!by_left || !by_right) return std::nullopt;
   return Eigen::MatrixXd(*by_left + *by_right);
 }

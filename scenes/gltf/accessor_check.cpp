@@ -12,7 +12,7 @@ constexpr uint64_t kMostUndefinedComponents = 30'000'000;
 // The schema keeps all sizes below 2^53 and strides below 2^8, so that no sum below overflows.
 
 void CheckView(const tinygltf::BufferView& view, uint64_t buffer_length, const std::string& at,
-               FaultList& faults) {
+               Faults& faults) {
   const uint64_t end = uint64_t{view.byteOffset} + view.byteLength;
   if (end > buffer_length) {
     faults.Add(at, fmt::format("ends at byte {} of a buffer of {} bytes", end, buffer_length));
@@ -36,7 +36,7 @@ struct Span {
 };
 
 void CheckSpan(const tinygltf::Model& model, const Span& span, const std::string& at,
-               FaultList& faults) {
+               Faults& faults) {
   const tinygltf::BufferView& view = model.bufferViews[static_cast<size_t>(span.view)];
   const uint32_t size = span.layout.component_bytes;
   if (span.byte_offset % size != 0) {
@@ -61,13 +61,13 @@ void CheckSpan(const tinygltf::Model& model, const Span& span, const std::string
 }
 
 void CheckHasNoStride(const tinygltf::Model& model, int view, const std::string& at,
-                      FaultList& faults) {
+                      Faults& faults) {
   if (model.bufferViews[static_cast<size_t>(view)].byteStride == 0) return;
   faults.Add(at, fmt::format("/bufferViews/{} must not have a stride", view));
 }
 
 void CheckSparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
-                 const std::string& at, FaultList& faults) {
+                 const std::string& at, Faults& faults) {
   const auto& sparse = accessor.sparse;
   const auto count = static_cast<uint64_t>(sparse.count);
   if (sparse.count < 1 || count > accessor.count) {
@@ -94,7 +94,7 @@ void CheckSparse(const tinygltf::Model& model, const tinygltf::Accessor& accesso
 }  // namespace
 
 void CheckAccessors(const tinygltf::Model& model, const std::vector<uint64_t>& buffer_lengths,
-                    FaultList& faults) {
+                    Faults& faults) {
   for (size_t i = 0; i < model.bufferViews.size(); ++i) {
     const tinygltf::BufferView& view = model.bufferViews[i];
     CheckView(view, buffer_lengths[static_cast<size_t>(view.buffer)],

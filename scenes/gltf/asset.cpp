@@ -4,9 +4,9 @@
 
 #include <stdexcept>
 
+#include "core/faults.h"
 #include "scenes/gltf/document.h"
 #include "scenes/gltf/extensions.h"
-#include "scenes/gltf/fault_list.h"
 #include "scenes/gltf/instance_attributes.h"
 #include "scenes/gltf/schema_check.h"
 #include "scenes/gltf/structure_check.h"
@@ -61,7 +61,7 @@ std::vector<uint64_t> BufferLengths(const json& root) {
 }
 
 void CheckStructure(const Document& document, const tinygltf::Model& model) {
-  FaultList faults(document.file);
+  Faults faults(document.file.string(), kMostFaults);
   CheckAccessors(model, BufferLengths(document.json), faults);
   CheckMeshes(model, faults);
   CheckNodes(model, document.json, faults);
@@ -74,7 +74,7 @@ void CheckStructure(const Document& document, const tinygltf::Model& model) {
 
 std::optional<Bytes> TryReadUri(const std::string& uri, const std::string& at,
                                 const std::filesystem::path& folder, ByteBudget& budget,
-                                FaultList& faults) {
+                                Faults& faults) {
   constexpr size_t kMostShown = 80;  // A data URI may have a megabyte.
   try {
     return ReadUri(uri, folder, budget);
@@ -87,7 +87,7 @@ std::optional<Bytes> TryReadUri(const std::string& uri, const std::string& at,
   return std::nullopt;
 }
 
-void LoadBuffers(Document& document, Asset& asset, ByteBudget& budget, FaultList& faults) {
+void LoadBuffers(Document& document, Asset& asset, ByteBudget& budget, Faults& faults) {
   if (!document.json.contains("buffers")) return;
   const json& buffers = document.json["buffers"];
   for (size_t i = 0; i < buffers.size(); ++i) {
@@ -114,7 +114,7 @@ std::optional<Bytes> BytesOfView(const Asset& asset, size_t index) {
   return Bytes(begin, begin + static_cast<std::ptrdiff_t>(view.byteLength));
 }
 
-void LoadImages(const Document& document, Asset& asset, ByteBudget& budget, FaultList& faults) {
+void LoadImages(const Document& document, Asset& asset, ByteBudget& budget, Faults& faults) {
   if (!document.json.contains("images")) return;
   const json& images = document.json["images"];
   for (size_t i = 0; i < images.size(); ++i) {
@@ -141,7 +141,7 @@ void LoadImages(const Document& document, Asset& asset, ByteBudget& budget, Faul
 Asset LoadAsset(const std::filesystem::path& file, const GltfReadOptions& options) {
   ByteBudget budget(options.max_file_bytes);
   Document document = ReadDocument(file, budget);
-  FaultList faults(file);
+  Faults faults(file.string(), kMostFaults);
   CheckVersionAndExtensions(document.json, faults);
   faults.ThrowIfAny();
   CheckSchema(document.json, faults);

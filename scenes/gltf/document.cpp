@@ -94,4 +94,8 @@ Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget) {
   return document;
 }
 
+std::string MemberPointer(const std::string& name) {
+  return (json::json_pointer() / name).to_string();
+}
+
 }  // namespace fenestra::gltf

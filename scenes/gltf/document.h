@@ -3,10 +3,14 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 
 #include "scenes/gltf/bytes.h"
 
 namespace fenestra::gltf {
+
+/// A file can be wrong in a million places; nobody reads more faults than this.
+inline constexpr size_t kMostFaults = 50;
 
 /// A glTF file taken out of its container: the JSON and, in a .glb, the binary chunk.
 struct Document {
@@ -18,5 +22,8 @@ struct Document {
 /// Reads .gltf or .glb. Throws InputError for a damaged container and for text that is not JSON,
 /// with its line and column, or that is nested too deeply.
 Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget);
+
+/// The JSON pointer (RFC 6901) from an object to its member: "/" and the escaped name.
+std::string MemberPointer(const std::string& name);
 
 }  // namespace fenestra::gltf

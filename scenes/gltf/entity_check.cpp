@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-void CheckCamera(const json& camera, const std::string& at, FaultList& faults) {
+void CheckCamera(const json& camera, const std::string& at, Faults& faults) {
   const auto type = camera["type"].get<std::string>();
   const std::string other = type == "perspective" ? "orthographic" : "perspective";
   if (!camera.contains(type)) faults.Add(at, fmt::format("'{}' is missing", type));
@@ -30,7 +30,7 @@ void CheckCamera(const json& camera, const std::string& at, FaultList& faults) {
   }
 }
 
-void CheckLight(const json& light, const std::string& at, FaultList& faults) {
+void CheckLight(const json& light, const std::string& at, Faults& faults) {
   if (light["type"] != "spot") return;
   if (!light.contains("spot")) return faults.Add(at, "'spot' is missing");
   const double inner = light["spot"].value("innerConeAngle", 0.0);
@@ -42,7 +42,7 @@ void CheckLight(const json& light, const std::string& at, FaultList& faults) {
 
 }  // namespace
 
-void CheckCamerasAndLights(const json& root, FaultList& faults) {
+void CheckCamerasAndLights(const json& root, Faults& faults) {
   if (root.contains("cameras")) {
     for (size_t i = 0; i < root["cameras"].size(); ++i) {
       CheckCamera(root["cameras"][i], fmt::format("/cameras/{}", i), faults);
@@ -55,7 +55,7 @@ void CheckCamerasAndLights(const json& root, FaultList& faults) {
   }
 }
 
-void CheckAnimations(const json& root, FaultList& faults) {
+void CheckAnimations(const json& root, Faults& faults) {
   if (!root.contains("animations")) return;
   for (size_t i = 0; i < root["animations"].size(); ++i) {
     const json& animation = root["animations"][i];

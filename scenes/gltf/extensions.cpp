@@ -28,7 +28,7 @@ std::vector<std::string> Names(const json& root, const char* member) {
 }
 
 // 2.0 is read, and later 2.x files that do not insist on their version.
-void CheckVersion(const json& asset, FaultList& faults) {
+void CheckVersion(const json& asset, Faults& faults) {
   for (const char* member : {"version", "minVersion"}) {
     const auto found = asset.find(member);
     if (found == asset.end() || !found->is_string()) continue;
@@ -55,7 +55,7 @@ std::set<std::string> DeclaredExtensions(const json& root) {
   return {used.begin(), used.end()};
 }
 
-void CheckVersionAndExtensions(const json& root, FaultList& faults) {
+void CheckVersionAndExtensions(const json& root, Faults& faults) {
   const auto asset = root.find("asset");
   if (asset != root.end() && asset->is_object()) CheckVersion(*asset, faults);
   const std::vector<std::string> required = Names(root, "extensionsRequired");

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/gltf/fault_list.h"
+#include "core/faults.h"
 
 namespace fenestra::gltf {
 
@@ -17,7 +17,7 @@ bool IsSupported(std::string_view extension);
 std::set<std::string> DeclaredExtensions(const nlohmann::json& root);
 
 /// The version, and that all required extensions are supported and declared.
-void CheckVersionAndExtensions(const nlohmann::json& root, FaultList& faults);
+void CheckVersionAndExtensions(const nlohmann::json& root, Faults& faults);
 
 /// Extensions that the document uses and Fenestra leaves out.
 std::vector<std::string> IgnoredExtensions(const nlohmann::json& root);

@@ -65,7 +65,7 @@ cv::Mat4b ToRgba(const Asset& asset, size_t image, const cv::Mat& decoded) {
 
 }  // namespace
 
-void CheckImages(const Asset& asset, FaultList& faults) {
+void CheckImages(const Asset& asset, Faults& faults) {
   for (size_t i = 0; i < asset.images.size(); ++i) {
     const ImageHeader header = ReadImageHeader(asset.images[i]);
     const bool is_foreign =

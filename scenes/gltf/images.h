@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/faults.h"
 #include "scenes/gltf/asset.h"
-#include "scenes/gltf/fault_list.h"
 #include "scenes/texture.h"
 
 namespace fenestra::gltf {
@@ -19,7 +19,7 @@ struct Picture {
 
 /// Holds the headers of all images of an asset, needed or not, against the limits and for
 /// completeness. Images of formats that an ignored extension brings along are left alone.
-void CheckImages(const Asset& asset, FaultList& faults);
+void CheckImages(const Asset& asset, Faults& faults);
 
 /// How many pixels may still be decoded.
 class PixelBudget {

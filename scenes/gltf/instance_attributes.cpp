@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "scenes/gltf/document.h"
 #include "scenes/gltf/values.h"
 
 namespace fenestra::gltf {
@@ -26,10 +27,10 @@ bool IsAllowed(const std::string& name, const tinygltf::Accessor& accessor) {
 }
 
 void CheckNode(const tinygltf::Model& model, const tinygltf::Value& attributes,
-               const std::string& at, FaultList& faults) {
+               const std::string& at, Faults& faults) {
   const size_t count = AccessorOf(model, attributes.Get(attributes.Keys().front())).count;
   for (const std::string& name : attributes.Keys()) {
-    const std::string pointer = at + "/" + PointerToken(name);
+    const std::string pointer = at + MemberPointer(name);
     const tinygltf::Accessor& accessor = AccessorOf(model, attributes.Get(name));
     if (!IsAllowed(name, accessor)) {
       faults.Add(pointer,
@@ -49,7 +50,7 @@ const tinygltf::Value* InstanceAttributes(const tinygltf::Node& node) {
   return extension == nullptr ? nullptr : Find(*extension, {"attributes"});
 }
 
-void CheckInstancing(const tinygltf::Model& model, FaultList& faults) {
+void CheckInstancing(const tinygltf::Model& model, Faults& faults) {
   for (size_t i = 0; i < model.nodes.size(); ++i) {
     const tinygltf::Value* attributes = InstanceAttributes(model.nodes[i]);
     if (attributes == nullptr) continue;

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "scenes/gltf/fault_list.h"
+#include "core/faults.h"
 #include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {
@@ -14,7 +14,7 @@ namespace fenestra::gltf {
 const tinygltf::Value* InstanceAttributes(const tinygltf::Node& node);
 
 /// That their types are the allowed ones and that they are equally long.
-void CheckInstancing(const tinygltf::Model& model, FaultList& faults);
+void CheckInstancing(const tinygltf::Model& model, Faults& faults);
 
 /// 1 without the extension; nothing is read for it.
 size_t InstanceCount(const tinygltf::Model& model, const tinygltf::Node& node);

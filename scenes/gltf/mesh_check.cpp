@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "scenes/gltf/document.h"
 #include "scenes/gltf/element_layout.h"
 #include "scenes/gltf/structure_check.h"
 
@@ -88,7 +89,7 @@ std::string_view Semantic(std::string_view name) {
 
 class MeshCheck {
  public:
-  MeshCheck(const tinygltf::Model& model, FaultList& faults)
+  MeshCheck(const tinygltf::Model& model, Faults& faults)
       : model_(model),
         quantized_(std::ranges::find(model.extensionsUsed, "KHR_mesh_quantization") !=
                    model.extensionsUsed.end()),
@@ -108,7 +109,7 @@ class MeshCheck {
 
   const tinygltf::Model& model_;
   const bool quantized_;
-  FaultList& faults_;
+  Faults& faults_;
   std::map<int, std::set<int>> accessors_of_view_;  // Those that hold vertices.
 };
 
@@ -138,7 +139,7 @@ void MeshCheck::Primitive(const tinygltf::Primitive& primitive, const std::strin
     VertexData(primitive.targets[i], count, pointer);
     for (const auto& [name, index] : primitive.targets[i]) {
       if (primitive.attributes.contains(name)) continue;
-      faults_.Add(pointer + "/" + PointerToken(name), "is not among the primitive's attributes");
+      faults_.Add(pointer + MemberPointer(name), "is not among the primitive's attributes");
     }
   }
   const auto sets = [&](std::string_view semantic) {
@@ -169,7 +170,7 @@ void MeshCheck::Indices(int index, const std::string& at) {
 
 void MeshCheck::VertexData(const Attributes& attributes, size_t count, const std::string& at) {
   for (const auto& [name, index] : attributes) {
-    const std::string pointer = at + "/" + PointerToken(name);
+    const std::string pointer = at + MemberPointer(name);
     Attribute(name, index, pointer);
     if (AccessorAt(index).count == count) continue;
     faults_.Add(pointer, fmt::format("has {} elements, while another attribute has {}",
@@ -216,7 +217,7 @@ void MeshCheck::SharedViews() {
 
 }  // namespace
 
-void CheckMeshes(const tinygltf::Model& model, FaultList& faults) {
+void CheckMeshes(const tinygltf::Model& model, Faults& faults) {
   MeshCheck check(model, faults);
   for (size_t i = 0; i < model.meshes.size(); ++i) {
     check.Mesh(model.meshes[i], fmt::format("/meshes/{}", i));

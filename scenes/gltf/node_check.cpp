@@ -11,7 +11,7 @@ namespace {
 constexpr int kNone = -1;
 
 // Each node's parent. A node with two of them is a fault.
-std::vector<int> Parents(const tinygltf::Model& model, FaultList& faults) {
+std::vector<int> Parents(const tinygltf::Model& model, Faults& faults) {
   std::vector<int> parents(model.nodes.size(), kNone);
   for (size_t i = 0; i < model.nodes.size(); ++i) {
     for (size_t k = 0; k < model.nodes[i].children.size(); ++k) {
@@ -28,8 +28,7 @@ std::vector<int> Parents(const tinygltf::Model& model, FaultList& faults) {
 }
 
 // With one parent each, nodes that no root reaches stand in loops.
-void CheckForLoops(const tinygltf::Model& model, const std::vector<int>& parents,
-                   FaultList& faults) {
+void CheckForLoops(const tinygltf::Model& model, const std::vector<int>& parents, Faults& faults) {
   std::vector<bool> is_reached(model.nodes.size(), false);
   std::vector<size_t> waiting;
   for (size_t i = 0; i < parents.size(); ++i) {
@@ -49,7 +48,7 @@ void CheckForLoops(const tinygltf::Model& model, const std::vector<int>& parents
   }
 }
 
-void CheckTransform(const nlohmann::json& node, const std::string& at, FaultList& faults) {
+void CheckTransform(const nlohmann::json& node, const std::string& at, Faults& faults) {
   if (node.contains("matrix")) {
     for (const char* name : {"translation", "rotation", "scale"}) {
       if (node.contains(name)) faults.Add(at + "/" + name, "must not stand beside a matrix");
@@ -70,7 +69,7 @@ void CheckTransform(const nlohmann::json& node, const std::string& at, FaultList
 }
 
 void CheckNode(const tinygltf::Model& model, const tinygltf::Node& node, const std::string& at,
-               FaultList& faults) {
+               Faults& faults) {
   if (node.mesh < 0) {
     if (node.skin >= 0) faults.Add(at + "/skin", "a skin needs a mesh");
     if (!node.weights.empty()) faults.Add(at + "/weights", "weights need a mesh");
@@ -85,7 +84,7 @@ void CheckNode(const tinygltf::Model& model, const tinygltf::Node& node, const s
 }
 
 void CheckScene(const tinygltf::Scene& scene, const std::vector<int>& parents,
-                const std::string& at, FaultList& faults) {
+                const std::string& at, Faults& faults) {
   for (size_t k = 0; k < scene.nodes.size(); ++k) {
     const int parent = parents[static_cast<size_t>(scene.nodes[k])];
     if (parent == kNone) continue;
@@ -97,7 +96,7 @@ void CheckScene(const tinygltf::Scene& scene, const std::vector<int>& parents,
 
 }  // namespace
 
-void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, FaultList& faults) {
+void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, Faults& faults) {
   const std::vector<int> parents = Parents(model, faults);
   CheckForLoops(model, parents, faults);
   for (size_t i = 0; i < model.nodes.size(); ++i) {
@@ -110,7 +109,7 @@ void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, FaultL
   }
 }
 
-void CheckSkins(const tinygltf::Model& model, FaultList& faults) {
+void CheckSkins(const tinygltf::Model& model, Faults& faults) {
   for (size_t i = 0; i < model.skins.size(); ++i) {
     const tinygltf::Skin& skin = model.skins[i];
     if (skin.inverseBindMatrices < 0) continue;

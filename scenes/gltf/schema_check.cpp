@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/did_you_mean.h"
+#include "scenes/gltf/document.h"
 #include "scenes/gltf/extensions.h"
 #include "scenes/gltf/schema.h"
 
@@ -18,7 +19,7 @@ using Kind = Property::Kind;
 
 class SchemaCheck {
  public:
-  SchemaCheck(const json& root, FaultList& faults)
+  SchemaCheck(const json& root, Faults& faults)
       : root_(root), declared_(DeclaredExtensions(root)), faults_(faults) {}
 
   void Object(const json& value, const ObjectSchema& schema, const std::string& at);
@@ -38,7 +39,7 @@ class SchemaCheck {
 
   const json& root_;
   const std::set<std::string> declared_;
-  FaultList& faults_;
+  Faults& faults_;
 };
 
 void SchemaCheck::Object(const json& value, const ObjectSchema& schema, const std::string& at) {
@@ -51,7 +52,7 @@ void SchemaCheck::Object(const json& value, const ObjectSchema& schema, const st
   if (!schema.members_refer_to.empty()) {
     if (value.empty()) faults_.Add(at, "must not be empty");
     for (const auto& [name, index] : value.items()) {
-      Reference(index, schema.members_refer_to, at + "/" + PointerToken(name));
+      Reference(index, schema.members_refer_to, at + MemberPointer(name));
     }
     return;
   }
@@ -176,7 +177,7 @@ void SchemaCheck::Extensions(const json& object, const ObjectSchema& schema,
   const std::string pointer = at + "/extensions";
   if (!extensions->is_object()) return faults_.Add(pointer, "must be an object");
   for (const auto& [name, value] : extensions->items()) {
-    const std::string here = pointer + "/" + PointerToken(name);
+    const std::string here = pointer + MemberPointer(name);
     if (!declared_.contains(name)) faults_.Add(here, "is not in 'extensionsUsed'");
     const auto allowed =
         std::ranges::find(schema.extensions, name, [](const auto& e) { return e.first; });
@@ -204,7 +205,7 @@ void SchemaCheck::UnknownMembers(const json& object, const ObjectSchema& schema,
   for (const auto& [name, value] : object.items()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     faults_.Add(
-        at + "/" + PointerToken(name),
+        at + MemberPointer(name),
         fmt::format("is not known here; {} {}.{}", known.size() == 1 ? "known is" : "known are",
                     fmt::join(known, ", "), DidYouMean(name, known)));
   }
@@ -212,7 +213,7 @@ void SchemaCheck::UnknownMembers(const json& object, const ObjectSchema& schema,
 
 }  // namespace
 
-void CheckSchema(const json& root, FaultList& faults) {
+void CheckSchema(const json& root, Faults& faults) {
   SchemaCheck(root, faults).Object(root, RootSchema(), "");
 }
 

@@ -2,12 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scenes/gltf/fault_list.h"
+#include "core/faults.h"
 
 namespace fenestra::gltf {
 
 /// Holds the whole document against the schema: types, ranges, required members, references into
 /// arrays, and extensions that are misplaced or not declared.
-void CheckSchema(const nlohmann::json& root, FaultList& faults);
+void CheckSchema(const nlohmann::json& root, Faults& faults);
 
 }  // namespace fenestra::gltf

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "scenes/gltf/fault_list.h"
+#include "core/faults.h"
 #include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {
@@ -15,15 +15,15 @@ namespace fenestra::gltf {
 /// Views within their buffers, accessors within their views, alignment, strides. An accessor
 /// without a view, all zeros, costs memory for nothing and is bounded.
 void CheckAccessors(const tinygltf::Model& model, const std::vector<uint64_t>& buffer_lengths,
-                    FaultList& faults);
+                    Faults& faults);
 
 /// Which attributes a primitive has, in which formats, and that they are equally long.
-void CheckMeshes(const tinygltf::Model& model, FaultList& faults);
+void CheckMeshes(const tinygltf::Model& model, Faults& faults);
 
 /// That nodes form a forest and scenes name its roots; skins, cameras, lights and animations.
-void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, FaultList& faults);
-void CheckSkins(const tinygltf::Model& model, FaultList& faults);
-void CheckCamerasAndLights(const nlohmann::json& root, FaultList& faults);
-void CheckAnimations(const nlohmann::json& root, FaultList& faults);
+void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, Faults& faults);
+void CheckSkins(const tinygltf::Model& model, Faults& faults);
+void CheckCamerasAndLights(const nlohmann::json& root, Faults& faults);
+void CheckAnimations(const nlohmann::json& root, Faults& faults);
 
 }  // namespace fenestra::gltf

@@ -5,7 +5,8 @@
 #include <Eigen/Geometry>
 
 #include "core/did_you_mean.h"
-#include "scenes/gltf/fault_list.h"
+#include "core/faults.h"
+#include "scenes/gltf/document.h"
 #include "scenes/gltf/values.h"
 
 namespace fenestra::gltf {
@@ -20,7 +21,7 @@ std::string PointerTo(const PlacedNode& placed) {
 
 // The window whose frame O is the node's.
 std::optional<TargetWindow> MarkedWindow(const PlacedNode& placed, const tinygltf::Value& size,
-                                         FaultList& faults) {
+                                         Faults& faults) {
   const auto rigid = RigidPart(placed.M_WN);
   if (!rigid) {
     faults.Add(PointerTo(placed), "a window must not be sheared, mirrored or scaled to nothing");
@@ -33,7 +34,7 @@ std::optional<TargetWindow> MarkedWindow(const PlacedNode& placed, const tinyglt
 
 // The +z face of the bounding box, in the node's axes, of all that hangs on placed node i.
 std::optional<TargetWindow> BoundingWindow(const std::vector<PlacedNode>& nodes, size_t i,
-                                           const PlacedMeshes& meshes, FaultList& faults) {
+                                           const PlacedMeshes& meshes, Faults& faults) {
   const auto rigid = RigidPart(nodes[i].M_WN);
   if (!rigid) {
     faults.Add(PointerTo(nodes[i]), "a window must not be sheared, mirrored or scaled to nothing");
@@ -58,7 +59,7 @@ std::optional<TargetWindow> BoundingWindow(const std::vector<PlacedNode>& nodes,
 
 // Index of the placed node with that name.
 std::optional<size_t> FindNode(const Asset& asset, const std::vector<PlacedNode>& nodes,
-                               const std::string& name, FaultList& faults) {
+                               const std::string& name, Faults& faults) {
   std::vector<size_t> found;
   std::vector<std::string> names;
   for (size_t i = 0; i < nodes.size(); ++i) {
@@ -82,7 +83,7 @@ std::optional<size_t> FindNode(const Asset& asset, const std::vector<PlacedNode>
 
 Windows FindWindows(const Asset& asset, const std::vector<PlacedNode>& nodes,
                     const PlacedMeshes& meshes, const std::optional<std::string>& target_node) {
-  FaultList faults(asset.file);
+  Faults faults(asset.file.string(), kMostFaults);
   std::optional<size_t> named;
   if (target_node) named = FindNode(asset, nodes, *target_node, faults);
   Windows windows;

@@ -49,9 +49,10 @@ TrialRecord Record(const Cell& cell, const Trial& trial, double dark) {
 
 ErrorBudget BudgetWith(double dark) {
   const Study study = ReadText(kStudy);
-  const Cell cell = Cells(study).front();
+  const std::vector<Cell> cells = Cells(study);
+  const Cell& cell = cells.front();
   const TrialSampler sampler(study, cell);
-  ErrorBudgets budgets(study);
+  ErrorBudgets budgets(study, cells);
   for (int i = cell.repetitions - 1; i >= 0; --i) {  // The order does not matter.
     budgets.Add(Record(cell, sampler.Sample(i), dark));
   }

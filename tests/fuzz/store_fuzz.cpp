@@ -48,7 +48,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     store.FinishedTrials();
     store.Tallies();
     store.Runs();
-    fenestra::WriteResultFiles(store, folder);
+    const fenestra::Study study = fenestra::StudyOf(store, folder / "results.sqlite");
+    fenestra::WriteResultFiles(store, study, fenestra::Cells(study), folder);
   } catch (const fenestra::InputError&) {
   }
   return 0;

@@ -12,7 +12,7 @@
 namespace fenestra {
 namespace {
 
-constexpr size_t kFewestCorners = 6;
+constexpr size_t kFewestShared = 6;
 constexpr size_t kFewestViews = 3;
 constexpr double kLargestFocalDeviation = 0.05;
 
@@ -257,9 +257,9 @@ std::vector<LeftOutView> TakeOutPoorViews(std::vector<NamedView>& views,
   std::vector<LeftOutView> left_out;
   std::erase_if(views, [&](const NamedView& view) {
     const size_t shared = SharedBy(view.corners, board).on_board.size();
-    if (shared >= kFewestCorners) return false;
+    if (shared >= kFewestShared) return false;
     left_out.push_back({view.name, fmt::format("{} corners are seen by both cameras, {} are needed",
-                                               shared, kFewestCorners)});
+                                               shared, kFewestShared)});
     return true;
   });
   return left_out;

@@ -8,25 +8,27 @@
 
 namespace fenestra {
 
-/// A detector's program that is running and has said hello. It is handed one observation at a time,
-/// as files in a folder of its own that hold what a detector may see and nothing else.
+/// A detector's program that is running and has answered the hello request. It receives one
+/// observation at a time, as files in a folder of its own that contain what a detector may see and
+/// nothing else.
 class DetectorProgram {
  public:
-  /// Throws InputError if the program cannot be started, does not say hello in time, speaks another
-  /// protocol or refuses its options.
+  /// Throws InputError if the program cannot be started, does not answer the hello request in time,
+  /// uses another protocol version or refuses its options.
   explicit DetectorProgram(const ExternalCommand& command);
 
-  /// An answer that names no stages gets one, "answer": the time from the request to it.
-  /// Throws DetectorFailure: what ParseDetectAnswer throws, or "timeout", "died", "flood". After
-  /// any but "exception" the program has been stopped.
+  /// Sends an observation and returns the program's answer. An answer without stages is given one,
+  /// "answer", with the time since the request. Throws DetectorFailure as ParseDetectAnswer does,
+  /// or with "timeout", "died" or "flood". After any failure but "exception" the program has been
+  /// stopped.
   TimedDetection Ask(const Observation& observation, const SensorCalibration& calibration);
 
   bool running() const { return running_; }
 
  private:
-  /// The answer, or a DetectorFailure that says how the program ended.
+  /// Returns the answer; throws a DetectorFailure that says how the program ended.
   std::string Talk(const std::string& request, double limit_s);
-  /// With paths that are never the same twice written as those of `.`.
+  /// Replaces the path of the temporary folder, which differs in every run, by `.`.
   std::string Told(const std::string& detail) const;
 
   ExternalCommand command_;

@@ -11,8 +11,8 @@
 
 namespace fenestra {
 
-/// What Fenestra and a detector that is a program of its own say to each other: one JSON object a
-/// line, on the program's standard input and output. Version 1:
+/// Protocol between Fenestra and a detector that is a separate program: one JSON object per line,
+/// on the program's standard input and output. Version 1:
 ///
 ///     > {"request": "hello", "protocol": 1, "sensor": "stereo", "options": {"size_m": 0.8}}
 ///     < {"protocol": 1}                      or {"error": "size_m must be positive"}
@@ -22,8 +22,8 @@ namespace fenestra {
 ///     < {"id": 1, "outcome": "miss", "reason": "no_contour", "detail": "…"}
 ///     < {"id": 1, "outcome": "error", "detail": "…"}             costs this observation alone
 ///
-/// For an RGB-D sensor the files are "color", "depth" and "calibration". The end of its standard
-/// input tells the program to end.
+/// For an RGB-D sensor the files are "color", "depth" and "calibration". The program must exit at
+/// the end of its standard input.
 inline constexpr int kDetectorProtocol = 1;
 
 std::string HelloRequest(const ExternalCommand& command);
@@ -35,7 +35,8 @@ void CheckHelloAnswer(std::string_view line);
 /// that is not JSON, "wrong_id" for an answer to something else, "bad_answer" for the rest.
 TimedDetection ParseDetectAnswer(std::string_view line, int64_t id);
 
-/// The program's side. Throws std::runtime_error for a line that is no request.
+/// Requests as the program receives them. ParseRequest throws std::runtime_error for a line that is
+/// not a request.
 struct Hello {
   int protocol;
   SensorKind sensor;

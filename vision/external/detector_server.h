@@ -11,16 +11,16 @@
 
 namespace fenestra {
 
-/// The other end of an ExternalDetector, for a detector that is written against `Detector`.
+/// The program's end of an ExternalDetector, for a detector that implements `Detector`.
 struct ServedDetector {
-  /// Why options are refused; empty if they are not.
+  /// Returns why the options are refused; empty if they are accepted.
   std::function<std::string(const Hello&)> objection;
   std::function<std::unique_ptr<Detector>(const Hello&, const SensorCalibration&)> make;
 };
 
-/// Answers requests, a line each, until `in` ends. The detector is made anew where the calibration
-/// differs from that of the request before. What it throws becomes an error answer. Throws
-/// std::runtime_error for a line that is no request.
+/// Answers requests, one per line, until `in` ends. A new detector is made whenever the calibration
+/// differs from that of the previous request. Exceptions of the detector become error answers.
+/// Throws std::runtime_error for a line that is not a request.
 void ServeDetector(const ServedDetector& served, std::istream& in, std::ostream& out);
 
 }  // namespace fenestra

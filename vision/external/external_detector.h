@@ -10,8 +10,7 @@
 
 namespace fenestra {
 
-/// Programs of one command that are kept running, as many as are asked at the same time.
-/// Thread-safe.
+/// A pool of running programs of one command, as many as are used at the same time. Thread-safe.
 class ProgramPool {
  public:
   explicit ProgramPool(ExternalCommand command) : command_(std::move(command)) {}
@@ -20,9 +19,8 @@ class ProgramPool {
 
   /// Starts the first program, if none is running. Throws InputError (DetectorProgram).
   void Start();
-  /// Asks a program that is idle, or a new one, and keeps it if it is still running afterwards.
-  /// Throws DetectorFailure: what DetectorProgram::Ask throws, or "start" where none can be
-  /// started.
+  /// Asks an idle program, or a new one, and keeps it if it is still running afterwards. Throws
+  /// DetectorFailure as DetectorProgram::Ask does, or with "start" if no program can be started.
   TimedDetection Ask(const Observation& observation, const SensorCalibration& calibration);
 
  private:
@@ -33,7 +31,7 @@ class ProgramPool {
   std::vector<std::unique_ptr<DetectorProgram>> idle_;
 };
 
-/// A detector that is a program of its own.
+/// A detector that runs as a separate program.
 class ExternalDetector : public Detector {
  public:
   /// The calibration's sensor must be the command's.

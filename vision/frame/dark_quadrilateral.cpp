@@ -18,10 +18,6 @@ constexpr double kLeastSine = 0.4;  // Of the angle at a corner: 24°.
 
 using SegmentSet = std::bitset<kMostSegments>;
 
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 double Reach(const EdgeSegment& s) {
   return std::max(kCornerReach_px, kCornerShare * s.Length());
 }
@@ -65,14 +61,6 @@ double Clarity(const cv::Mat1b& image, const Quadrilateral& q, const DarknessSet
     sum += clarity;
   }
   return 0.25 * sum;
-}
-
-bool IsConvex(const Quadrilateral& q) {
-  for (size_t i = 0; i < 4; ++i) {
-    const Vector2d& p = q[(i + 1) % 4];
-    if (Cross(p - q[i], q[(i + 2) % 4] - p) <= 0.0) return false;
-  }
-  return true;
 }
 
 bool NearlySame(const Quadrilateral& a, const Quadrilateral& b) {

@@ -9,24 +9,26 @@
 
 namespace fenestra {
 
-/// A quadrilateral of an image that is darker than what surrounds it.
+/// A quadrilateral in an image that is darker than its surroundings.
 struct DarkQuadrilateral {
   Quadrilateral corners_px;
-  /// How clearly it stands out: mean over the sides of DarkInside, 0 to 1.
+  /// How clearly it stands out, from 0 to 1: see DarkInside.
   double clarity = 0.0;
-  double length_px = 0.0;  ///< Of the four edges together.
+  double length_px = 0.0;  ///< Total length of the four edges.
 };
 
-/// Which of two comes first: the clearer one, of equally clear ones (where all edges are as clear
-/// as they can be) that with the longer edges. So a mirrored image has the same order.
+/// Orders candidates: the clearer one comes first. Of equally clear ones, which occur where all
+/// edges are as clear as they can be, the one with the longer edges comes first, so that a mirrored
+/// image gives the same order.
 template <typename Dark>
 bool IsClearer(const Dark& a, const Dark& b) {
   return a.clarity != b.clarity ? a.clarity > b.clarity : a.length_px > b.length_px;
 }
 
-/// Convex quadrilaterals whose four sides are edges that reach near to their corners and are each
-/// at least so dark on their inside, and IsDarkThroughout; the clearest first; of those that are
-/// nearly the same only the clearest, and at most `most` of them.
+/// Finds convex quadrilaterals whose four sides are edges that reach close to the corners and are
+/// each at least `min_darkness` dark on the inside, and for which IsDarkThroughout holds. Returns
+/// at most `most` of them, the clearest first; of several that nearly coincide, only the clearest
+/// is returned.
 std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
                                                       const EdgeSegments& segments,
                                                       const DarknessSettings& settings,

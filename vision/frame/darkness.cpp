@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 constexpr int kPlaces = 16;
 constexpr double kExceptions = 0.125;
-constexpr double kEndShare = 0.06;  // Left out at each end, where other sides begin.
+constexpr double kCornerShare = 0.06;  // Left out at each end, where other sides begin.
 const double kFullContrast = std::log(4.0);
 
 // -1 outside the image.
@@ -48,7 +48,7 @@ void AlongLine(const cv::Mat1b& image, const Vector2d& from, const Vector2d& to,
   const Vector2d along = to - from;
   const Vector2d right = Vector2d(-along.y(), along.x()).normalized();
   for (int i = 0; i < kPlaces; ++i) {
-    const double share = kEndShare + (1.0 - 2.0 * kEndShare) * (i + 0.5) / kPlaces;
+    const double share = kCornerShare + (1.0 - 2.0 * kCornerShare) * (i + 0.5) / kPlaces;
     if (const auto greys = GreysAt(image, from + share * along, right, settings)) use(*greys);
   }
 }

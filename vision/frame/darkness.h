@@ -10,28 +10,31 @@ namespace fenestra {
 
 struct DarknessSettings {
   double black_dn;         ///< Grey value without light.
-  double min_contrast_dn;  ///< What is darker by less is not darker.
-  double reach_px;         ///< Grey values are compared up to here on either side of an edge.
+  double min_contrast_dn;  ///< Smaller differences count as none.
+  double reach_px;         ///< Grey values are compared up to this distance on either side.
 };
 
-/// How clearly a line parts dark on the right of who walks along it from bright on the left: mean
-/// over places along it of ln(bright / dark) / ln 4, at most 1, 0 where it is not darker. Places
-/// outside the image count as 0.
+/// Measures how clearly the directed line from `from` to `to` separates dark on its right from
+/// bright on its left: the mean over places along the line of ln(bright / dark) / ln 4, limited to
+/// 1, and 0 where the right side is not darker. Places outside the image count as 0.
 double DarkOnTheRight(const cv::Mat1b& image, const Eigen::Vector2d& from,
                       const Eigen::Vector2d& to, const DarknessSettings& settings);
 
-/// Mean of that over the sides of a quadrilateral: how clearly it is darker than what surrounds it.
+/// Measures how clearly a quadrilateral is darker than its surroundings: the mean of DarkOnTheRight
+/// over its sides.
 double DarkInside(const cv::Mat1b& image, const Quadrilateral& corners_px,
                   const DarknessSettings& settings);
 
-/// Grey value within an outline over that outside of it, above the black level: the median over
-/// places along the outline's sides, from 0. 1 where nothing of it is in the image.
+/// Ratio of the grey value just inside an outline to that just outside it, both above the black
+/// level: the median over places along the outline, at least 0. Returns 1 if no part of the outline
+/// is in the image.
 double DarkOverBright(const cv::Mat1b& image, const std::vector<Eigen::Vector2d>& outline,
                       const DarknessSettings& settings);
 
-/// Whether one grey value parts what is within its sides from what is outside of them, all around:
-/// a frame is of one paint. What four unrelated edges enclose is not, as a rule. An eighth of the
-/// places on either side of the border may be exceptions, for what stands before it.
+/// Tells whether a single grey value separates the inside from the outside all around the
+/// quadrilateral. It does for a frame, which has one paint, but rarely for the area between four
+/// unrelated edges. An eighth of the places on either side of the border may be exceptions, to
+/// allow for objects in front of it.
 bool IsDarkThroughout(const cv::Mat1b& image, const Quadrilateral& corners_px,
                       const DarknessSettings& settings);
 

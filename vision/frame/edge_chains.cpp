@@ -4,6 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "vision/frame/quadrilateral.h"
+
 namespace fenestra {
 namespace {
 
@@ -17,10 +19,6 @@ constexpr double kBend_px = 0.8;
 constexpr double kFollow_px = 1.6;  // From row to row; more than an edge at 45° moves.
 constexpr int kMissingRows = 2;
 constexpr double kObliqueness = 0.7;  // tan 35°: neighbouring kinds overlap by 20°.
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 struct ChainPoint {
   double u;

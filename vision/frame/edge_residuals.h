@@ -4,24 +4,25 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/side_request.h"
 #include "vision/frame/frame_knowledge.h"
+#include "vision/frame/side_request.h"
 
 namespace fenestra {
 
-/// By view.
+/// Edge points of each view.
 using EdgePointsByView = std::vector<std::vector<EdgePoint>>;
 
-/// n·(π(X_CL p_LQ) - q)/σ of all points, view by view (see frame_adjustment.h). nullopt where one
-/// is behind a camera.
+/// Residuals n·(π(X_CL p_LQ) - q)/σ of all points, view by view (see frame_adjustment.h). Returns
+/// nullopt if a point is behind a camera.
 std::optional<std::vector<double>> EdgeResiduals(std::span<const CameraView> views,
                                                  const EdgePointsByView& points,
                                                  const FrameRectangle& frame);
 
-/// 1.4826 times their median size, at least 1.
+/// 1.4826 times the median absolute residual, at least 1.
 double RobustScale(std::vector<double> residuals);
 
-/// What a residual costs: Tukey's biweight at 4.685 times the scale, or its square up to 3.5 times.
+/// Loss of a residual: Tukey's biweight at 4.685 times the scale, or the square, cut off at 3.5
+/// times the scale.
 struct EdgeLoss {
   double scale;
   bool square;
@@ -33,8 +34,8 @@ struct EdgeLoss {
 NormalEquations LineariseEdges(std::span<const CameraView> views, const EdgePointsByView& points,
                                const FrameRectangle& frame, const EdgeLoss& loss);
 
-/// Σ σ_g² v_g v_gᵀ over the sides and borders in all views: what errors that all points of one have
-/// in common make of the gradient, v = Σ w j/σ.
+/// Covariance of the gradient caused by errors that all points of a side share: Σ σ_g² v_g v_gᵀ
+/// over the sides and borders in all views, with v = Σ w j/σ.
 Eigen::Matrix<double, FrameRectangle::kParameters, FrameRectangle::kParameters> CommonErrors(
     std::span<const CameraView> views, const EdgePointsByView& points, const FrameRectangle& frame,
     const EdgeLoss& loss);

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "vision/frame/edge_chains.h"
+#include "vision/frame/quadrilateral.h"
 
 namespace fenestra {
 namespace {
@@ -18,10 +19,6 @@ constexpr double kJoinedDarkness = 0.6;
 // Ends of what is one edge at both scales; along it, corners round off.
 constexpr double kSameAcross_px = 1.5;
 constexpr double kSameAlong_px = 4.0;
-
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 double Weight(const EdgeSegment& s) {
   return s.Length() * s.darkness;

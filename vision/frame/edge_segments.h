@@ -7,14 +7,14 @@
 
 namespace fenestra {
 
-/// Straight edges (edge_chains.h) that are clear enough. Pieces of one line are listed both apart
-/// and joined across gaps, as what stands before a frame cuts its sides; a joined one must be as
-/// clear in the gap. A picture of half the size adds what is straight only there: where a frame
-/// stands back, its edge and the wall's beside it are a pixel or two apart, and the stronger of
-/// both is now one and now the other.
+/// Finds the straight edges (edge_chains.h) of an image that are clear enough. Pieces of one line
+/// are listed both separately and joined across gaps, since an object in front of a frame cuts its
+/// sides; a joined segment must be as clear in the gap as elsewhere. An image of half the size adds
+/// edges that are straight only at that scale: where a frame is recessed, its edge and the edge of
+/// the wall are a pixel or two apart, and either of them may be the stronger one.
 EdgeSegments FindEdgeSegments(const cv::Mat1b& image, const EdgeSegmentSettings& settings);
 
-/// The points where two lines meet, each given by two points; far away if they are parallel.
+/// The intersection of the lines through two segments; a point far away if the lines are parallel.
 Eigen::Vector2d Meet(const EdgeSegment& a, const EdgeSegment& b);
 
 }  // namespace fenestra

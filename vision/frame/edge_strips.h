@@ -6,28 +6,29 @@
 
 namespace fenestra {
 
-/// A pixel near an edge, and its distance from where the edge is assumed, outwards.
+/// A pixel near an edge and its outward distance from the assumed edge.
 struct StripPixel {
   double s_px;
   double grey_dn;
 };
 
-/// The pixels around a place on a side of a frame, some pixels along the edge and across it.
+/// The pixels around a place on a side of a frame, within a few pixels along and across the edge.
 struct EdgeStrip {
-  double share;            ///< Of the way along the side.
+  double share;            ///< Share of the way along the side.
   Eigen::Vector2d pixel;   ///< Where the edge is assumed.
-  Eigen::Vector2d normal;  ///< Unit vector across the edge, out of the frame's centre.
+  Eigen::Vector2d normal;  ///< Unit normal of the edge, away from the frame's centre.
   std::vector<StripPixel> pixels;
 };
 
 struct EdgeStrips {
   std::vector<EdgeStrip> strips;
-  int places = 0;  ///< Also those that are not wholly in the image.
+  int places = 0;  ///< Number of places, including those that are not wholly in the image.
 };
 
-/// Divides a side of the frame, as it is assumed, into strips about 8 px long, at most 40. They end
-/// `reach_px` before the side's ends, where other sides begin. If coarse, and there are at least
-/// 30, those are cut that are a multiple of three strips apart and alike at both ends.
+/// Divides a side of the assumed frame into at most 40 strips that are about 8 px long. They stop
+/// `reach_px` before the ends of the side, where the neighbouring sides begin. A coarse request for
+/// a side with at least 30 strips returns every third one, placed symmetrically about the middle of
+/// the side.
 EdgeStrips CutStrips(const CameraView& view, const FrameRectangle& frame,
                      const SideRequest& request);
 

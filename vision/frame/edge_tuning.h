@@ -6,24 +6,24 @@
 
 namespace fenestra {
 
-/// What is known of a side besides its pixels.
+/// What is known about a side apart from its pixels.
 struct SideFacts {
-  double excess;   ///< Residuals' mean square for the weights as they are.
+  double excess;   ///< Mean square of the residuals for the weights as they are.
   double falloff;  ///< Relative change of the light across the edge by vignetting, outwards [1/px].
 };
 
 struct Learnt {
   EdgeTuning tuning;
-  /// By how much all of the side's edges may be off together because of what is not known of the
-  /// tuning: its covariance, by the mean of the strips' derivatives.
+  /// Standard deviation of the error that all edge points of the side share because the tuning is
+  /// uncertain: its covariance, propagated by the mean of the strips' derivatives.
   double common_sigma_px = 0.0;
 };
 
-/// The tuning that these fits of a side's strips suggest: a step of Gauss and Newton for blur and
-/// slopes, with the strips' own unknowns eliminated, the mean step, and the residuals' variances on
-/// either side. Slopes are expected to be those of vignetting, in proportion to the light on their
-/// side of the edge, give or take some hundredths of a per cent a pixel; a law with long tails, so
-/// that where shading makes other ones, these are believed.
+/// Estimates the tuning from the fits of a side's strips: a Gauss–Newton step for blur and slopes
+/// with the strips' own unknowns eliminated, the mean step, and the variances of the residuals on
+/// either side. The prior expects the slopes of vignetting, in proportion to the light on their
+/// side of the edge, give or take some hundredths of a per cent per pixel. Its tails are long, so
+/// that other slopes are accepted where shading causes them.
 Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
              const std::vector<StepFit>& fits, const SideFacts& facts, const SideRequest& request,
              const EdgeTuning& tuning);

@@ -4,37 +4,41 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/side_request.h"
 #include "vision/frame/frame_knowledge.h"
 #include "vision/frame/frame_rectangle.h"
+#include "vision/frame/side_request.h"
 
 namespace fenestra {
 
 struct FrameAdjustment {
   FrameRectangle frame;
-  /// Of FrameRectangle's parameters in their order; rows of those that were not fitted are zero.
+  /// Covariance of FrameRectangle's parameters in their order. Rows of parameters that were not
+  /// fitted are zero.
   Eigen::Matrix<double, FrameRectangle::kParameters, FrameRectangle::kParameters> covariance;
-  std::vector<std::vector<bool>> is_inlier;  ///< By view, for each point.
-  /// Root mean square of the residuals over their standard deviations.
+  std::vector<std::vector<bool>> is_inlier;  ///< For each point of each view.
+  /// Root mean square of the residuals, each divided by its standard deviation.
   double scale = 0.0;
 };
 
-/// The frame that fits best to edge points in all views: minimises
+/// Fits a frame to the edge points of all views by minimising
 ///
 ///     Σ ρ(n·(π(X_CL p_LQ) - q) / σ)
 ///
-/// over rotation, centroid, width, height and, if there are points of the inner edge, the border's
-/// width; over a relief that has a prior. π: the camera with its distortion; p_LQ: the
-/// point of the side at the edge point's share of it; q, n, σ: the edge point. ρ: Tukey's biweight
-/// at 4.685 times the residuals' own scale (1.4826 of their median size, at least 1); then least
-/// squares over those within 3.5 times that scale. Levenberg and Marquardt, iterated reweighting.
+/// over rotation, centroid, width and height; over the border's width if there are points of the
+/// inner edge; and over each relief that has a prior. π is the camera with its distortion, p_LQ the
+/// point on the side at the edge point's share of it, and q, n and σ describe the edge point. ρ is
+/// Tukey's biweight at 4.685 times the scale of the residuals (1.4826 times their median absolute
+/// value, at least 1), followed by least squares over the residuals within 3.5 times that scale.
+/// The solver is Levenberg–Marquardt with iterated reweighting.
 ///
-/// Measured planes add (m(frame) - m)ᵀ Λ (m(frame) - m), Λ their information, times the square of
-/// the residuals' scale: edges that are off by more than their noise count less beside them.
+/// Each measured plane adds (m(frame) - m)ᵀ Λ (m(frame) - m), with Λ its information, times the
+/// square of the residuals' scale: where edges are off by more than their noise, the planes weigh
+/// more against them.
 ///
-/// The covariance is (JᵀWJ)⁻¹ times the inliers' mean square where that is above 1: edges of
-/// textured walls are off by more than noise explains. What the points of one side in one view may
-/// be off together is carried through to it. nullopt if the points fix no rectangle.
+/// The covariance is (JᵀWJ)⁻¹, times the mean square of the inliers where that exceeds 1, since the
+/// edges of textured walls are off by more than noise explains. Errors that the points of one side
+/// in one view share are propagated to it. Returns nullopt if the points do not determine a
+/// rectangle.
 std::optional<FrameAdjustment> AdjustFrame(std::span<const CameraView> views,
                                            const std::vector<std::vector<EdgePoint>>& points,
                                            const FrameRectangle& start,

@@ -7,7 +7,7 @@ namespace fenestra {
 namespace {
 
 constexpr int kPlaces = 16;
-constexpr double kEndShare = 0.1;
+constexpr double kBorderEndShare = 0.1;
 // From the outer edge, so that its blur is not taken for the border's end.
 constexpr double kClear_px = 2.0;
 
@@ -62,7 +62,7 @@ std::optional<double> MeanAlong(const CameraView& view, const FrameRectangle& fr
   double sum = 0.0;
   int count = 0;
   for (int i = 0; i < kPlaces; ++i) {
-    const double share = kEndShare + (1.0 - 2.0 * kEndShare) * (i + 0.5) / kPlaces;
+    const double share = kBorderEndShare + (1.0 - 2.0 * kBorderEndShare) * (i + 0.5) / kPlaces;
     const auto pixel = view.camera.Project(view.X_CL * frame.PointOn(side, Border::kInner, share));
     if (!pixel) continue;
     const int u = static_cast<int>(std::lround(pixel->x()));

@@ -17,41 +17,41 @@ namespace fenestra {
 struct FrameFitSettings {
   double min_contrast_dn;
   double reach_px = 4.0;  ///< Pixels up to here from an edge are used, unless another is nearer.
-  /// The reach away from the border, once the rectangle is known well. Where light is even, the
-  /// level of the grey values beside an edge is told well enough so far from it.
+  /// The reach on the side away from the border, once the rectangle is known well. In even light
+  /// this is far enough to determine the level of the grey values beside an edge.
   double far_px = 8.0;
-  double min_side_support;  ///< Share of an outer side's places with its edge.
+  double min_side_support;  ///< Least share of an outer side's places at which its edge is found.
   BorderSearch border;
-  std::optional<SizePrior> size;  ///< Used in the last adjustment only.
+  std::optional<SizePrior> size;  ///< Used only in the last adjustment.
   std::vector<PlaneMeasurement> planes{};
   Vignetting vignetting;
 };
 
-/// From a rectangle that is right to some pixels to the one that fits best: measures the sides in
-/// all views and adjusts the rectangle to them, in rounds.
+/// Refines a rectangle that is accurate to a few pixels: measures its sides in all views and
+/// adjusts the rectangle to them, in rounds.
 class FrameFitter {
  public:
-  /// The views must outlive this.
+  /// The views must outlive the fitter.
   FrameFitter(std::span<const CameraView> views, const FrameFitSettings& settings)
       : views_(views), settings_(settings), tunings_(views.size()) {}
 
-  /// From now on these instead of those in the settings.
+  /// Replaces the planes given in the settings.
   void UsePlanes(std::vector<PlaneMeasurement> planes) { settings_.planes = std::move(planes); }
 
-  /// One round with the outer sides alone. nullopt if they fix no rectangle.
+  /// Does one round with the outer sides alone. Returns nullopt if they do not determine a
+  /// rectangle.
   std::optional<FrameFit> FitRoughly(const FrameRectangle& start);
 
-  /// Looks for the border's inner edge and goes on with both, in the first of these ways that the
-  /// edges bear out:
+  /// Finds the inner edge of the border and fits both edges with the first of these models that
+  /// agrees with them:
   ///
   ///   1. all sides in one plane: a painted or a flush frame;
   ///   2. the outer sides in one plane, the inner ones in another;
-  ///   3. each outer side with a relief of its own: the wall's face here, a sill or the frame
-  ///   there;
+  ///   3. each outer side with a relief of its own, such as the wall's face or a sill;
   ///   4. all in one plane, but only to 0.7 px.
   ///
-  /// Then, by what two views show, how far the frame's front is behind that: frame_depth.h. With
-  /// planes that were measured otherwise all that is left alone.
+  /// It then estimates how far the frame's front is behind the fitted rectangle, by the parallax
+  /// between two views (frame_depth.h), unless planes were measured by other means.
   ///
   /// Miss: "no_edges", "unsupported_side".
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);

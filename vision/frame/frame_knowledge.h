@@ -7,28 +7,29 @@
 
 namespace fenestra {
 
-/// What is known of a frame before it is seen.
+/// Prior knowledge of a frame's size.
 struct SizePrior {
   double width_m;
   double height_m;
   double sigma_m;
 };
 
-/// How far sides may be from the frame's plane.
+/// Prior knowledge of how far sides are from the frame's plane.
 struct ReliefPrior {
   double mean_m;
   double sigma_m;
 };
 
-/// A plane parallel to the frame's front that was measured without looking at the frame's edges, as
-/// depth does: { p : m·p = 1 }, in L, with m = n/(n·p_LO + relief) for a frame of normal n.
+/// A plane parallel to the frame's front that was measured independently of the frame's edges, for
+/// example in a depth image: { p : m·p = 1 } in L, with m = n/(n·p_LO + relief) for a frame with
+/// normal n.
 struct PlaneMeasurement {
   Eigen::Vector3d m;            ///< [1/m]
-  Eigen::Matrix3d information;  ///< Of m; inverse of its covariance, or of less rank [m²].
-  double relief_m = 0.0;        ///< Of the plane before (+) or behind the frame's front.
+  Eigen::Matrix3d information;  ///< Inverse covariance of m; it may be rank deficient [m²].
+  double relief_m = 0.0;        ///< The plane lies this far in front of (+) the frame's front.
 };
 
-/// What is assumed of a frame. Sides without a relief are in its plane.
+/// All prior knowledge that enters a fit. Sides without a relief prior lie in the frame's plane.
 struct FrameKnowledge {
   std::optional<SizePrior> size;
   std::optional<ReliefPrior> outer_relief;
@@ -36,7 +37,7 @@ struct FrameKnowledge {
   std::vector<PlaneMeasurement> planes{};
 };
 
-/// Of a least-squares problem in FrameRectangle's parameters: JᵀWJ and -JᵀWr.
+/// Normal equations of a least-squares problem in FrameRectangle's parameters: JᵀWJ and -JᵀWr.
 struct NormalEquations {
   Eigen::Matrix<double, FrameRectangle::kParameters, FrameRectangle::kParameters> matrix;
   FrameRectangle::Step gradient;
@@ -47,12 +48,12 @@ struct NormalEquations {
   }
 };
 
-/// Adds what is known. `plane_weight`: by how much residuals of edges are larger than their
-/// standard deviations, squared.
+/// Adds the prior knowledge to the normal equations. `plane_weight` is the squared ratio of the
+/// edges' residuals to their standard deviations.
 void AddKnowledge(const FrameRectangle& frame, const FrameKnowledge& knowledge, double plane_weight,
                   NormalEquations& equations);
 
-/// Sum of the squares whose half AddKnowledge's gradient is the descent of.
+/// Sum of squares of the prior terms; AddKnowledge adds the negative gradient of half of it.
 double LossOfKnowledge(const FrameRectangle& frame, const FrameKnowledge& knowledge,
                        double plane_weight);
 

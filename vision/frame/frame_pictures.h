@@ -9,11 +9,12 @@
 
 namespace fenestra {
 
-/// Segments by the side that they may be, and quadrilaterals in magenta.
+/// Draws segments, coloured by the side that they may be, and quadrilaterals in magenta.
 cv::Mat3b DrawSegments(const cv::Mat1b& image, const EdgeSegments& segments,
                        const std::vector<DarkQuadrilateral>& candidates);
 
-/// All views side by side; edge points that the frame explains green, others red.
+/// Draws all views side by side, with edge points that the frame explains in green and the others
+/// in red.
 cv::Mat3b DrawEdgePoints(std::span<const CameraView> views, const FrameFit& fit);
 
 }  // namespace fenestra

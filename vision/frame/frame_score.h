@@ -14,21 +14,23 @@
 
 namespace fenestra {
 
-/// DarkInside of the frame's outer sides, piece by piece, as the lens bends them; mean of the
-/// views.
+/// Mean over the views of DarkInside for the frame's outer sides, evaluated piecewise because the
+/// lens bends them.
 double FrameClarity(std::span<const CameraView> views, const FrameRectangle& frame,
                     const DarknessSettings& settings);
 
-/// The frame's grey value over its wall's, DarkOverBright along the outer sides; mean of the views.
+/// Mean over the views of the ratio of the frame's grey value to the wall's: DarkOverBright along
+/// the outer sides.
 double FrameGreyRatio(std::span<const CameraView> views, const FrameRectangle& frame,
                       const DarknessSettings& settings);
 
-/// How much speaks for a fitted frame, 0 to 1: its clarity and how much of its sides was found;
-/// less if its sides are not in one plane or if a bright band lies around it (BrightBand).
+/// Score of a fitted frame, 0 to 1: combines its clarity and the share of its sides that was found,
+/// and is lowered if the sides do not lie in one plane or if a bright band surrounds the frame
+/// (BrightBand).
 double FrameScore(std::span<const CameraView> views, const FrameFit& fit,
                   const DarknessSettings& settings);
 
-/// "not_dark" for a frame whose clarity is below `min_clarity`.
+/// Returns "not_dark" for a frame whose clarity is below `min_clarity`.
 std::optional<Miss> ObjectionToClarity(std::span<const CameraView> views,
                                        const FrameRectangle& frame,
                                        const DarknessSettings& settings, double min_clarity);

@@ -6,8 +6,8 @@
 
 namespace fenestra {
 
-/// How far a frame stands back from a rectangle of dark edges that may be its own outer edge or the
-/// edge of the wall around it.
+/// Estimate of how far a frame is recessed behind a rectangle of dark edges, which may be its own
+/// outer edges or those of the wall around it.
 struct Setback {
   double mean_m;
   double sigma_m;
@@ -15,17 +15,18 @@ struct Setback {
 
 struct RevealGrey {
   double black_dn;         ///< Grey value without light.
-  double min_contrast_dn;  ///< Of mean grey values along a side: what differs by less is alike.
+  double min_contrast_dn;  ///< Mean grey values along a side that differ by less count as equal.
 };
 
-/// A frame at depth d behind the rectangle shows, on a side that the camera at distance z looks at
-/// from h further inwards,
+/// Tells whether the views rule out a reveal, i.e. a recess of the frame behind the rectangle. On a
+/// side that a camera at distance z looks at from a place h further inwards, a frame at depth d
+/// behind the rectangle shows a strip of the reveal of width
 ///
 ///     t = h d / (z + d)
 ///
-/// of the reveal between them, within the rectangle. Whether that is wide enough somewhere to be
-/// seen of a reveal 5 cm deep, and nowhere there is a step to something darker, as from a reveal to
-/// the frame. Where the rectangle is a frame's own edge there is none either.
+/// within the rectangle. Returns true if on some side the strip of a reveal 5 cm deep would be wide
+/// enough to be seen, and on no side there is a step to something darker, as from a reveal to the
+/// frame. There is no such step either where the rectangle is the frame's own edge.
 bool ShowsNoReveal(std::span<const CameraView> views, const FrameRectangle& frame,
                    const RevealGrey& grey);
 

@@ -7,16 +7,16 @@
 
 namespace fenestra {
 
-/// By side.
+/// Counts for each side.
 using SideCounts = std::array<int, 4>;
 
-/// Places along the sides where an edge was looked for, by view.
+/// Number of places along the sides at which an edge was looked for, for each view.
 struct PlaceCounts {
   std::vector<SideCounts> outer;
   std::vector<SideCounts> inner;
 };
 
-/// Puts in the fit of how many of them it explains the edge.
+/// Stores in the fit the shares of these places whose edge the fit explains.
 void CountSupport(const PlaceCounts& places, FrameFit& fit);
 
 }  // namespace fenestra

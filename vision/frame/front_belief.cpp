@@ -7,9 +7,9 @@
 namespace fenestra {
 namespace {
 
-constexpr double kDeepest_m = 0.20;
+constexpr double kDeepestBelieved_m = 0.20;
 // A rectangle of sides at several depths may be behind all of them.
-constexpr double kNearest_m = -0.10;
+constexpr double kNearestBelieved_m = -0.10;
 constexpr double kStep_m = 0.002;
 constexpr double kFrontSigma_m = 0.004;  // Rounded or chamfered edges.
 // What is seen may be the front edge of the opening or the rear one, that of a pane between or of
@@ -53,8 +53,8 @@ FrontBelief BelieveFront(const std::vector<DepthSight>& sights, double prior_flu
   double sum = flush;
   double first = 0.0;
   double second = 0.0;
-  const double nearest_m = prior_flush > 0.0 ? 0.0 : kNearest_m;
-  const int count = static_cast<int>((kDeepest_m - nearest_m) / kStep_m);
+  const double nearest_m = prior_flush > 0.0 ? 0.0 : kNearestBelieved_m;
+  const int count = static_cast<int>((kDeepestBelieved_m - nearest_m) / kStep_m);
   for (int i = 0; i < count; ++i) {
     const double setback_m = nearest_m + (i + 0.5) * kStep_m;
     const double weight = (1.0 - prior_flush) / count * Likelihood(sights, setback_m);

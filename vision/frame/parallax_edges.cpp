@@ -12,8 +12,8 @@ namespace {
 constexpr double kFrom_px = -10.0;
 constexpr double kStep_px = 0.5;
 constexpr double kMostInset = 0.3;  // Of the frame's width.
-constexpr double kNearest_m = -0.15;
-constexpr double kDeepest_m = 0.25;
+constexpr double kNearestEdge_m = -0.15;
+constexpr double kDeepestEdge_m = 0.25;
 constexpr int kHalfStep = 2;    // A pixel on either side of an edge.
 constexpr int kHalfWindow = 4;  // What is alike around an edge: 2 px.
 // An edge stands out from those whose blur is in its window.
@@ -151,7 +151,7 @@ std::vector<ParallaxEdge> FindParallaxEdges(const CameraView& first, const Camer
     const auto index = [&](double behind_m) {
       return (SeenBySecond(eye, other, t0, behind_m) - grid.first_m) / grid.step_m;
     };
-    const auto [low, high] = std::minmax({index(kNearest_m), index(kDeepest_m)});
+    const auto [low, high] = std::minmax({index(kNearestEdge_m), index(kDeepestEdge_m)});
     const auto found = MostAlike(a, i, b, static_cast<int>(std::floor(low)) - 1,
                                  static_cast<int>(std::ceil(high)) + 1);
     if (!found) continue;
@@ -159,8 +159,8 @@ std::vector<ParallaxEdge> FindParallaxEdges(const CameraView& first, const Camer
     const double by_step =
         std::abs(PlaceOf(eye, other, t0, grid.InsetAt(*found + 1.0)).behind_m - place.behind_m);
     // False for what is no number, too.
-    if (!(std::isfinite(by_step) && place.behind_m > 1.5 * kNearest_m &&
-          place.behind_m < 1.5 * kDeepest_m)) {
+    if (!(std::isfinite(by_step) && place.behind_m > 1.5 * kNearestEdge_m &&
+          place.behind_m < 1.5 * kDeepestEdge_m)) {
       continue;
     }
     const bool is_crowded_outside = IsCrowded(a, i, -1);

@@ -18,10 +18,6 @@ struct Line {
   Vector2d direction;  // Unit.
 };
 
-double Cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 Vector2d ToEigen(const cv::Point& p) {
   return {p.x, p.y};
 }
@@ -32,14 +28,6 @@ std::optional<Vector2d> Intersect(const Line& l, const Line& m) {
   const Vector2d p = l.point + Cross(m.point - l.point, m.direction) / sine * l.direction;
   if (!p.allFinite()) return std::nullopt;
   return p;
-}
-
-bool IsConvex(const Quadrilateral& q) {
-  for (size_t i = 0; i < 4; ++i) {
-    const Vector2d& p = q[(i + 1) % 4];
-    if (Cross(p - q[i], q[(i + 2) % 4] - p) <= 0.0) return false;
-  }
-  return true;
 }
 
 // sides[i] runs from corner i to corner i + 1.
@@ -95,6 +83,18 @@ Line FitSide(const std::vector<cv::Point>& contour, const Vector2d& p, const Vec
 }
 
 }  // namespace
+
+double Cross(const Vector2d& a, const Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+bool IsConvex(const Quadrilateral& q) {
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector2d& p = q[(i + 1) % 4];
+    if (Cross(p - q[i], q[(i + 2) % 4] - p) <= 0.0) return false;
+  }
+  return true;
+}
 
 std::optional<Quadrilateral> FitQuadrilateral(const std::vector<cv::Point>& contour) {
   if (contour.size() < 4) return std::nullopt;

@@ -6,7 +6,8 @@
 
 namespace fenestra {
 
-/// Places on a frame's front where a profile across a side is read, from the side inwards.
+/// The places on a frame's front, from the side inwards, at which a profile across the side is
+/// sampled.
 struct ProfileGrid {
   double first_m;
   double step_m;
@@ -15,10 +16,12 @@ struct ProfileGrid {
   double InsetAt(double index) const { return first_m + index * step_m; }
 };
 
-/// Grey values across a side, each the mean along its middle: 0.15 to 0.85 of the way.
+/// Grey values across a side. Each is the mean along the middle part of the side, from 0.15 to 0.85
+/// of its length.
 struct SideProfile {
   std::vector<double> grey_dn;
-  /// Of the mean, by how much the values along the side differ; large where it is out of the image.
+  /// Variance of each mean, estimated from the scatter of the values along the side; large where
+  /// the profile leaves the image.
   std::vector<double> variance;
 
   int size() const { return static_cast<int>(grey_dn.size()); }
@@ -29,7 +32,8 @@ struct SideProfile {
 SideProfile ProfileAcross(const CameraView& view, const FrameRectangle& frame, Side side,
                           const ProfileGrid& grid);
 
-/// Of a pixel across a side in its middle, on the frame's front [m]; 0 if it is not seen.
+/// Extent of a pixel across a side, on the frame's front in the middle of the side [m]; 0 if that
+/// place is not seen.
 double PixelAcross(const CameraView& view, const FrameRectangle& frame, Side side);
 
 }  // namespace fenestra

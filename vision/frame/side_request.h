@@ -9,36 +9,40 @@
 
 namespace fenestra {
 
-/// An image as its camera delivered it, not rectified: its pixels' noise is independent.
+/// An image as its camera delivered it. It is not rectified, so the noise of its pixels is
+/// independent.
 struct CameraView {
   CameraModel camera;
-  Pose X_CL;  ///< C: this camera.
+  Pose X_CL;  ///< C is this camera.
   cv::Mat1b image;
 };
 
-/// A place on a side of the frame where the image's edge was found.
+/// A place on a side of the frame where an edge was found in the image.
 struct EdgePoint {
   Side side;
   Border border;
-  double share;            ///< Of the way along the side.
-  Eigen::Vector2d normal;  ///< Across the edge, out of the frame's centre.
+  double share;            ///< Share of the way along the side.
+  Eigen::Vector2d normal;  ///< Unit normal of the edge, away from the frame's centre.
   Eigen::Vector2d pixel;
   double sigma_px;  ///< Standard deviation of `pixel` along `normal`.
-  /// What all points of this side in this view may be off together, besides: what is not known of
-  /// blur, slopes and full scale, and what the model of lens and light is worth.
+  /// Standard deviation of an additional error that all points of this side share in this view. It
+  /// comes from the uncertainty of blur, slopes and full scale, and from the imperfection of the
+  /// models of lens and light.
   double common_sigma_px = 0.0;
 };
 
-/// What is learnt of a side while it is measured, for the next time (see step_fit.h).
+/// Nuisance parameters of the edge model for one side (see step_fit.h), estimated while the side is
+/// measured and used when it is measured next.
 struct EdgeTuning {
   static constexpr int kShared = 5;
-  /// Standard deviation of the lens' blur in the middle of the side, how it changes and bends along
-  /// it [px], and slopes of the grey values outside and inside, as shares of the step [1/px].
+  /// Standard deviation of the lens blur in the middle of the side, its linear and quadratic change
+  /// along the side [px], and the slopes of the grey values outside and inside as shares of the
+  /// step [1/px].
   Eigen::Matrix<double, kShared, 1> shared = {0.5, 0.0, 0.0, 0.0, 0.0};
-  double dark_variance = 1.0;  ///< Of the grey values on either side [DN²].
+  double dark_variance = 1.0;  ///< Variance of the grey values on the dark side [DN²].
   double bright_variance = 1.0;
-  double rise_dn = 0.0;  ///< Mean step; 0: not known yet. Only used where pixels are at full scale.
-  /// Whether pixels beyond SideRequest::reach_px fit as well as those within it.
+  double rise_dn = 0.0;  ///< Mean step, used only where pixels are at full scale; 0: not known yet.
+  /// Whether pixels beyond SideRequest::reach_px fit the model as well as those within it.
   bool is_even = true;
 
   double blur_px() const { return shared[0]; }
@@ -50,8 +54,8 @@ struct EdgeTuning {
 
 enum class Brighter { kOutside, kInside };
 
-/// How light falls off from the image's centre: grey values above black_dn as cos^power of the
-/// angle to the optical axis. 4 for natural vignetting, 0 where the camera corrects it.
+/// Vignetting: grey values above black_dn fall off as cos^power of the angle to the optical axis.
+/// The power is 4 for natural vignetting and 0 if the camera corrects it.
 struct Vignetting {
   double black_dn;
   double power;
@@ -66,7 +70,7 @@ struct SideRequest {
   double far_px;
   double min_contrast_dn;
   Vignetting vignetting;
-  bool coarse = false;  ///< Every third strip only.
+  bool coarse = false;  ///< Measures only every third strip.
 
   double inside_px() const { return border == Border::kOuter ? reach_px : far_px; }
   double outside_px() const { return border == Border::kOuter ? far_px : reach_px; }

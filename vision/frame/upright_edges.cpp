@@ -10,7 +10,7 @@ namespace fenestra {
 namespace {
 
 constexpr double kAtSide_px = 2.0;
-constexpr double kClear_px = 2.0;  // Of an edge within, from the side's own.
+constexpr double kClearOfSide_px = 2.0;  // Of an edge within, from the side's own.
 // Of the strongest edge: what is less may be a change of the light.
 constexpr double kLeastShare = 0.03;
 constexpr double kInPlaneSigmas = 3.0;
@@ -36,7 +36,7 @@ UprightEdges EdgesOf(const CameraView& first, const CameraView& second, const Fr
       edges.own = edge;
     }
   }
-  const double from_m = (edges.own ? edges.own->seen_inset_m : 0.0) + kClear_px * pixel_m;
+  const double from_m = (edges.own ? edges.own->seen_inset_m : 0.0) + kClearOfSide_px * pixel_m;
   for (const ParallaxEdge& edge : found) {
     if (edge.seen_inset_m > from_m) edges.within.push_back(edge);
   }

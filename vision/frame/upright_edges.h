@@ -9,12 +9,13 @@
 
 namespace fenestra {
 
-/// What two views show along an upright side of a rectangle that may be a frame's or its wall's.
+/// The edges that two views show along a vertical side of a rectangle, which may be the frame's own
+/// or that of the wall around it.
 struct UprightEdges {
-  std::optional<ParallaxEdge> own;   ///< The rectangle's: bright outside.
-  std::vector<ParallaxEdge> within;  ///< Farther inwards.
+  std::optional<ParallaxEdge> own;   ///< The rectangle's own edge, which is bright outside.
+  std::vector<ParallaxEdge> within;  ///< Edges farther inwards.
 
-  /// Whether the rectangle's edge is in its plane, as well as parallax tells.
+  /// Whether the rectangle's edge lies in its plane, as far as parallax tells.
   bool IsInPlane() const;
 };
 
@@ -24,23 +25,24 @@ struct UprightPair {
 
   bool AreInPlane() const { return left.IsInPlane() && right.IsInPlane(); }
 
-  /// Whether one side is looked across and the other is not, so that the wall's edge may hide the
-  /// frame's on the former and not on the latter, and both were found.
+  /// Whether both sides were found and exactly one of them is looked across, so that the wall's
+  /// edge may hide the frame's on that side only.
   bool AreFarAndNear() const;
 
-  /// Whether there is another edge just outside of one of its own, as the wall's outside of a
-  /// bright reveal: then fits of its own are a little off.
+  /// Whether another edge lies just outside one of the rectangle's own, like the wall's edge
+  /// outside a bright reveal. Fits of the rectangle's own edges are then slightly off.
   bool IsBesideOther() const;
 
-  /// Depths of the front and of the frame's thickness, from the rectangle's plane; from its edges
-  /// where these are in it, as a plane may be turned a little.
+  /// Measured depths of the front and of the frame's thickness. They are relative to the
+  /// rectangle's plane, or to its edges where these lie in the plane, since the plane may be
+  /// slightly tilted.
   std::vector<DepthSight> Sights() const;
 
-  /// Probability that the rectangle is flush, given that of before its own sides were looked at.
-  /// These may be in its plane by chance, but must be if it is.
+  /// Updates the probability that the frame is flush by the depths of the rectangle's own sides: if
+  /// it is flush they lie in the plane; if it is not, they may lie there by chance.
   double ProbablyFlush(double before) const;
 
-  /// How far the foremost of its own edges is behind the plane; at most 0.
+  /// How far the foremost of the rectangle's own edges is behind the plane [m]; at most 0.
   double Foremost() const;
 };
 

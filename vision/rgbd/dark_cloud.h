@@ -26,13 +26,13 @@ struct DarkCloud {
 /// of its last step are to be in the camera's frame; dark pixels without depth are left out.
 DarkCloud SegmentDark(const RegisteredImages& images, const CameraModel& camera, int dark_below_dn);
 
-/// The same for pixels that are chosen otherwise, such as by a colour that the frame is known to
-/// have: those whose `mask` is not 0.
+/// Makes the cloud of the pixels whose `mask` is not 0, for pixels that are selected in another
+/// way, such as by a known colour of the frame.
 DarkCloud CloudOf(const cv::Mat1b& mask, const cv::Mat1f& depth_m, const CameraModel& camera);
 
-/// The cloud's parts that are connected (8 neighbours) in the image, each with its own mask: at
-/// most `most` of at least `min_points`, the largest first. Not in the paper, whose target is the
-/// only dark thing in view.
+/// Splits the cloud into parts that are connected in the image (8 neighbours), each with its own
+/// mask. Returns at most `most` parts of at least `min_points` points, the largest first. This step
+/// is not in the paper, whose target is the only dark object in view.
 std::vector<DarkCloud> ConnectedParts(const DarkCloud& cloud, const CameraModel& camera,
                                       int min_points, size_t most);
 

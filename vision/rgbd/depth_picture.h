@@ -4,8 +4,8 @@
 
 namespace fenestra {
 
-/// Depth from its smallest (red) to its largest value (blue) in the image; black where there is
-/// none.
+/// Draws depth in false colours, from its smallest value in the image (red) to its largest (blue);
+/// pixels without depth are black.
 cv::Mat3b DrawDepth(const cv::Mat1f& depth_m);
 
 }  // namespace fenestra

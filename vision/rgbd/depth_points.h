@@ -9,18 +9,18 @@
 
 namespace fenestra {
 
-/// A pixel of a depth image that has a return.
+/// A pixel of a depth image that has a depth.
 struct DepthPoint {
   cv::Point pixel;
   Eigen::Vector3d ray_D;    ///< (x, y, 1)
   double inverse_depth;     ///< 1/z [1/m]
-  Eigen::Vector2f seen_px;  ///< Where the colour camera, freed of distortion, sees it.
+  Eigen::Vector2f seen_px;  ///< Where the colour camera without distortion sees it.
 };
 
-/// Reads depth images. Pixels that share most of the window in which the sensor matched them tell
-/// nothing new, so only every so many columns are read, of which about 320 are left, and half as
-/// many rows. (Where windows are 4.5 pixels wide, every second row leaves the variance of a mean
-/// 2 % larger.)
+/// Reads depth images sparsely. Pixels that share most of the block with which the sensor matched
+/// them add no information, so only every n-th column is read, which leaves about 320 columns, and
+/// half as large a share of the rows. (With blocks 4.5 pixels wide, reading every second row makes
+/// the variance of a mean only 2 % larger.)
 class DepthPointReader {
  public:
   explicit DepthPointReader(const RgbdCalibration& calibration);
@@ -28,7 +28,7 @@ class DepthPointReader {
   /// The image must have the size of the calibration.
   std::vector<DepthPoint> Read(const DepthImage& depth) const;
 
-  int columns() const { return columns_; }  ///< Every so many are read.
+  int columns() const { return columns_; }  ///< Every columns()-th column is read.
   int rows() const { return rows_; }
 
  private:

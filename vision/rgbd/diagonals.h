@@ -21,9 +21,9 @@ struct DiagonalCrossing {
 ///     w = a − b,   D = (u·u)(v·v) − (u·v)²
 ///     s = ((u·v)(v·w) − (v·v)(u·w)) / D,   t = ((u·u)(v·w) − (u·v)(u·w)) / D.
 ///
-/// The centre of every parallelogram; of a rectangle seen in perspective too, as the vertices are
-/// in space. nullopt where a diagonal vanishes, where they are parallel to 1e-6 rad, or where they
-/// cross outside of either (the outline is not convex).
+/// For a parallelogram this is the centre, also when it is seen in perspective, since the vertices
+/// are points in space. Returns nullopt if a diagonal vanishes, if the diagonals are parallel to
+/// within 1e-6 rad, or if they cross outside one of them (the outline is then not convex).
 std::optional<DiagonalCrossing> CrossDiagonals(const FourVertices& p_CV);
 
 }  // namespace fenestra

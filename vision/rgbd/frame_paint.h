@@ -5,16 +5,17 @@
 
 namespace fenestra {
 
-/// The width that every frame has at least: 6 % of the shorter side. Where no inner edge was found.
+/// Border width that is assumed where no inner edge was found: 6 % of the shorter side, the least
+/// that frames have.
 double GuessedBorder(const FrameRectangle& frame);
 
-/// Of the median grey values in the middle of a frame's four sides, the greatest over the least,
-/// each at least `black_dn`, without sides that stand before the frame's front. 1 for a frame of
-/// one paint in even light.
+/// Ratio of the greatest to the least of the median grey values in the middle of a frame's four
+/// sides, each taken as at least `black_dn`. Sides seen in front of the frame's front are left out.
+/// It is 1 for a frame of one paint in even light.
 double BrightestOverDarkestSide(const CameraView& view, const FrameRectangle& frame,
                                 double black_dn);
 
-/// Share of places in the middle of a frame's border that have the expected colour.
+/// Share of the places in the middle of a frame's border that have the expected colour.
 double ShareOfColor(const CameraView& view, const FrameRectangle& frame, const WindowPrior& prior,
                     const cv::Mat3b& color);
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/input_error.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -18,22 +18,21 @@ cv::Size SizeOf(const CameraModel& camera) {
 }  // namespace
 
 void CheckFits(const RgbdObservation& observation, const RgbdCalibration& calibration) {
-  std::vector<InputFault> faults;
-  const auto demand_size = [&faults](const char* name, const cv::Size& found,
-                                     const cv::Size& want) {
-    if (found == want) return;
-    faults.push_back(
-        {name, 0, 0,
-         fmt::format("the image has {}, its calibration {}", SizeText(found), SizeText(want))});
+  Faults faults;
+  const auto require = [&faults](const char* image, bool holds, std::string message) {
+    if (!holds) faults.AddFault({.source = image, .message = std::move(message)});
   };
-  demand_size("color", observation.color.size(), SizeOf(calibration.color));
-  demand_size("depth", observation.depth.raw.size(), SizeOf(calibration.depth));
-  if (observation.depth.unit_m != calibration.depth_unit_m) {
-    faults.push_back({"depth", 0, 0,
-                      fmt::format("the image has a unit of {} m, its calibration {} m",
-                                  observation.depth.unit_m, calibration.depth_unit_m)});
-  }
-  if (!faults.empty()) throw InputError(std::move(faults));
+  const auto require_size = [&require](const char* image, const cv::Size& found,
+                                       const cv::Size& want) {
+    require(image, found == want,
+            fmt::format("the image has {}, its calibration {}", SizeText(found), SizeText(want)));
+  };
+  require_size("color", observation.color.size(), SizeOf(calibration.color));
+  require_size("depth", observation.depth.raw.size(), SizeOf(calibration.depth));
+  require("depth", observation.depth.unit_m == calibration.depth_unit_m,
+          fmt::format("the image has a unit of {} m, its calibration {} m",
+                      observation.depth.unit_m, calibration.depth_unit_m));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

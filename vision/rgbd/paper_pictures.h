@@ -11,13 +11,13 @@
 
 namespace fenestra {
 
-/// The cloud's pixels green and dark pixels without depth red over the colour image.
+/// Marks in the colour image the cloud's pixels green and dark pixels without depth red.
 cv::Mat3b DrawSegmentation(const RegisteredImages& images, const DarkCloud& cloud);
 
-/// Size of DrawKeyPoints' picture over that of its range image.
+/// Scale of DrawKeyPoints' picture relative to the range image.
 inline constexpr int kKeyPointPictureScale = 3;
 
-/// Key points as circles on the cloud's depth; the chosen four as a closed outline.
+/// Draws key points as circles on the cloud's depth, and the chosen four as a closed outline.
 cv::Mat3b DrawKeyPoints(const cv::Mat1f& depth_m, const std::vector<KeyPoint>& key_points,
                         const std::optional<std::array<int, 4>>& chosen);
 

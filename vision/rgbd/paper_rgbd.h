@@ -11,29 +11,30 @@
 
 namespace fenestra {
 
-/// What the options make of a cloud as the working camera sees it: how far a point may lie from its
-/// plane, of which pixels the range image is made, and NARF's support size [m].
+/// Parameters of the processing that follow from the options: the tolerance of a point's distance
+/// from the plane, the stride of the range image's pixels, and NARF's support size [m] for a cloud
+/// as the working camera sees it.
 PlaneTolerance ToleranceOf(const PaperRgbdOptions& options);
 int RangeImageStride(const CameraModel& camera, const PaperRgbdOptions& options);
 double SupportSize(const CloudShape& shape, const CameraModel& camera,
                    const PaperRgbdOptions& options);
 
 /// The RGB-D pipeline of S. Zhou, G. Flores, R. Lozano, P. Castillo, "Vision-based window
-/// estimation for MAV in unknown urban environments", IFAC RED-UAS 2013, section 4. Stages:
+/// estimation for MAV in unknown urban environments", IFAC RED-UAS 2013, section 4. Its stages:
 ///
-///     register     depth to the colour camera's viewpoint (open in the paper)
+///     register     depth to the colour camera's viewpoint (not specified in the paper)
 ///     segment      Algorithm 1: dark pixels with depth become a cloud
 ///     range_image  Algorithm 2: the cloud's range image; its plane and size
 ///     narf         Algorithm 2: NARF key points
-///     vertices     four of them: the largest quadrilateral on the cloud's plane (open in the
-///     paper) centroid     intersection of the diagonals
+///     vertices     the largest quadrilateral of key points on the cloud's plane (likewise)
+///     centroid     the intersection of the diagonals
 ///
-/// The vertices are the key points themselves. NARF places those on stable surface *inside* of the
-/// frame's corners, so p_CV lies some per cent of the side inside of the true outline, on either
-/// side alike, which leaves the centroid free of it to first order. The normal is that of the
-/// plane, the covariance that of crossing_covariance.h. The score is the quadrilateral's share of
-/// the cloud's hull, times the cloud's share on its plane, times what is seen of its least
-/// seen side, times what of its middle is free.
+/// The vertices are the key points themselves. NARF places them on stable surface *inside* the
+/// frame's corners, so p_CV lies a few per cent of the side inside the true outline. It does so
+/// equally on opposite sides, which cancels in the centroid to first order. The normal is that of
+/// the plane, and the covariance is that of crossing_covariance.h. The score is the product of the
+/// quadrilateral's share of the cloud's hull, the share of the cloud on its plane, the seen share
+/// of the least seen side, and the free share of the middle.
 ///
 /// Misses: no_dark_pixels, no_depth_on_dark_pixels, cloud_too_small, no_plane, too_few_key_points,
 /// not_a_quadrilateral, implausible_shape; not_open with max_filled_share, no_frame with
@@ -49,7 +50,7 @@ class PaperRgbdDetector : public Detector {
 
  private:
   DarkCloud Segment(const RegisteredImages& registered) const;
-  /// What is searched one after the other.
+  /// The clouds that are searched one after the other.
   std::vector<DarkCloud> Split(const DarkCloud& cloud) const;
   Detection FindFrame(const DarkCloud& cloud, StageLog& log, bool with_pictures) const;
   Detection Estimate(const DarkCloud& cloud, const CloudShape& shape, const FourVertices& p_KV,

@@ -1,6 +1,6 @@
 #include "vision/rgbd/paper_rgbd_options.h"
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -61,10 +61,10 @@ const Table& PaperRgbdParameters() {
 }
 
 void Validate(const PaperRgbdOptions& options) {
-  Demands demand("paper-rgbd");
-  demand.Add(PaperRgbdParameters().Objections(options));
-  demand.Add(FaultsOf(options.prior));
-  demand.ThrowUnlessMet();
+  Faults faults("paper-rgbd");
+  faults.Add(PaperRgbdParameters().Objections(options));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

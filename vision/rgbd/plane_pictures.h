@@ -8,8 +8,8 @@
 
 namespace fenestra {
 
-/// What was used of a depth image: the wall green, what is off its plane red, the frame's front
-/// yellow.
+/// Marks in a depth image the points that were used: the wall green, points off its plane red, and
+/// the frame's front yellow.
 cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
                        const DepthPointReader& reader);
 

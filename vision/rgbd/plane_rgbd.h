@@ -9,28 +9,28 @@
 
 namespace fenestra {
 
-/// A dark-framed window by its edges in the colour image and the plane of the wall around it in the
-/// depth image, as one rectangle fitted to both.
+/// Detects a dark-framed window by its edges in the colour image and by the plane of the
+/// surrounding wall in the depth image, and fits one rectangle to both.
 ///
-///   stage      what                                                       where
-///   read       colour as light, depth as rays with inverse depths         linear_grey,
-///   depth_points segments   straight edges, by the side of something dark
-///   vision/frame/edge_segments propose    dark quadrilaterals vision/frame/dark_quadrilateral
-///   plane      those that are rectangles on the plane around them         plane_seed
-///   fit        edges to sub-pixel in the colour image as delivered,       vision/frame/frame_fitter,
-///              the planes of wall and frame with their covariance,        depth_plane, frame_depth
+///   stage      what                                                  where
+///   read       colour as light, depth as rays with inverse depths    linear_grey, depth_points
+///   segments   straight edges, grouped by the side that they may be  edge_segments
+///   propose    dark quadrilaterals                                   dark_quadrilateral
+///   plane      those that are rectangles on the plane around them    plane_seed
+///   fit        edges to sub-pixel in the colour image as delivered,  frame_fitter,
+///              planes of wall and frame with their covariance,       depth_plane, frame_planes
 ///              one rectangle with a border fitted to all of them
-///   choose     the clearest; the others go with it
+///   choose     the clearest, which names the others                  frame_score
 ///
-/// Edges know the rectangle's direction and shape to hundredths of a pixel, but nothing of its
-/// scale; depth knows the scale and, less well, the tilt. A black frame returns little light to the
-/// depth sensor, so the plane is that of the wall around it, before or behind which the frame's
-/// front lies by an offset that is an option; where the frame does return depth and that says
-/// otherwise, the offset is estimated.
+/// The edges determine the rectangle's direction and shape to hundredths of a pixel, but not its
+/// scale; the depth determines the scale and, less precisely, the tilt. A black frame returns
+/// little light to the depth sensor, so the plane is that of the surrounding wall. The offset
+/// between wall and front is an option; where the frame does return depth that contradicts it, the
+/// offset is estimated.
 ///
-/// Estimates are in D, the camera that the depth image belongs to, with the fit's covariance: what
-/// noise in both images makes of it, given the calibration and the offset.
-/// Pictures in the log: "segments", "edge_points", "depth_use".
+/// Estimates are in D, the camera that the depth image belongs to. Their covariance is that of the
+/// fit: it covers the noise of both images, given the calibration and the offset. Pictures in the
+/// log: "segments", "edge_points", "depth_use".
 class PlaneRgbdDetector : public Detector {
  public:
   /// Throws InputError for options that Validate refuses and for a depth unit that is not positive.
@@ -40,8 +40,8 @@ class PlaneRgbdDetector : public Detector {
 
   /// Miss: "no_quadrilateral", "no_depth", "not_a_rectangle", "no_edges", "unsupported_side",
   /// "implausible_shape", "not_dark", "open_border", "stands_before", "unexpected_setback",
-  /// "uneven_border", by how far the best candidate came; "unexpected_size", "unexpected_shape" or
-  /// "unexpected_color" with a prior.
+  /// "uneven_border", depending on how far the best candidate got; "unexpected_size",
+  /// "unexpected_shape" or "unexpected_color" with a prior.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
@@ -54,7 +54,7 @@ class PlaneRgbdDetector : public Detector {
   struct Finished;
   std::variant<std::vector<PlaneSeed>, Miss> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                                    const std::vector<DepthPoint>& points) const;
-  /// What is seen, as the fit needs it.
+  /// The data of one observation that the fit needs.
   struct Sight {
     const RgbdObservation& images;
     const CameraView& view;
@@ -66,7 +66,7 @@ class PlaneRgbdDetector : public Detector {
 
   PlaneRgbdOptions options_;
   RgbdCalibration calibration_;
-  CameraModel pinhole_;     ///< The colour camera, freed of distortion.
+  CameraModel pinhole_;     ///< The colour camera without its distortion.
   cv::Mat2f undistortion_;  ///< Empty without distortion.
   DepthPointReader reader_;
   DarknessSettings darkness_;

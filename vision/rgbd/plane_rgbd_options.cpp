@@ -1,6 +1,6 @@
 #include "vision/rgbd/plane_rgbd_options.h"
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -38,11 +38,11 @@ const Table& PlaneRgbdParameters() {
 }
 
 void Validate(const Options& options) {
-  Demands demand("plane-rgbd");
-  demand.Add(PlaneRgbdParameters().Objections(options));
-  demand.Add(FaultsOf(options.search));
-  demand.Add(FaultsOf(options.prior));
-  demand.ThrowUnlessMet();
+  Faults faults("plane-rgbd");
+  faults.Add(PlaneRgbdParameters().Objections(options));
+  faults.Add(FaultsOf(options.search));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kLeastPoints = 40;
 constexpr double kLeastShare = 0.4;  // Of them, on the plane.
-constexpr uint64_t kTriples = 1;     // The same samples for every image.
+constexpr uint64_t kSampleSeed = 1;  // The same samples for every image.
 
 // Of the points around a quadrilateral one in two is enough to find their plane.
 std::vector<DepthPoint> EverySecondRow(const std::vector<DepthPoint>& points) {
@@ -33,7 +33,8 @@ PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
   PlaneSeeds found;
   for (const DarkQuadrilateral& candidate : candidates) {
     const auto around = PointsAround(sparse, candidate.corners_px, settings.clear_px);
-    const auto wall = FindDepthPlane(around, settings.noise, kLeastPoints, RandomStream(kTriples));
+    const auto wall =
+        FindDepthPlane(around, settings.noise, kLeastPoints, RandomStream(kSampleSeed));
     if (!wall || wall->inliers < kLeastShare * static_cast<double>(around.size())) {
       ++found.without_plane;
       continue;

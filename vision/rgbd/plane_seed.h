@@ -18,16 +18,17 @@ struct PlaneSeed {
 struct PlaneSeedSettings {
   FrameLimits limits;
   DepthNoise noise;
-  double setback_m;  ///< Of the frame's front behind the plane around it.
-  double clear_px;   ///< Between a quadrilateral and the depth points around it [colour pixels].
+  double setback_m;  ///< How far the frame's front is behind the plane around it.
+  double clear_px;  ///< Gap between a quadrilateral and the depth points around it [colour pixels].
 };
 
 struct PlaneSeeds {
   std::vector<PlaneSeed> seeds;  ///< In the order of their candidates.
-  int without_plane = 0;         ///< Candidates without enough depth around them.
+  int without_plane = 0;         ///< Number of candidates without enough depth around them.
 };
 
-/// `color`: the colour camera, freed of distortion.
+/// Finds the candidates that are rectangles on the plane around them. `color` is the colour camera
+/// without its distortion.
 PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
                           const std::vector<DepthPoint>& points, const CameraModel& color,
                           const Pose& X_KD, const PlaneSeedSettings& settings);

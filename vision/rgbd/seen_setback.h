@@ -5,17 +5,18 @@
 
 namespace fenestra {
 
-/// The frame that a camera at p_LC sees alike, with its front `by_m` farther behind the wall.
+/// Moves a frame `by_m` farther behind the wall and scales it so that a camera at p_LC sees it
+/// unchanged.
 FrameRectangle SetBack(const FrameRectangle& frame, const Eigen::Vector3d& p_LC, double by_m);
 
-/// A frame whose sides all were taken to be seen in its front's plane, with those that its reveal
-/// hides from a camera at p_LC moved to where they are seen, the edge of the wall's face
-/// `setback_m` before the front.
+/// Corrects a frame for which all sides were assumed to be seen in the plane of its front. Sides
+/// that the reveal hides from a camera at p_LC are moved to the edge that is seen instead, the edge
+/// of the wall's face `setback_m` in front of the frame.
 FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3d& p_LC,
                                double setback_m);
 
-/// Adds to the covariance of a frame's centroid what is not known of its setback: along the normal,
-/// unless the fit has it, and across it.
+/// Adds the uncertainty of the setback to the covariance of a frame's centroid: along the normal,
+/// unless the fit contains it, and across it.
 void AddSetback(const CameraView& view, bool is_fitted, const FramePlanes& planes, FrameFit& fit);
 
 }  // namespace fenestra

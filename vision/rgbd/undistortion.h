@@ -6,11 +6,11 @@
 
 namespace fenestra {
 
-/// The same camera with a perfect lens.
+/// Returns the camera without its distortion.
 CameraModel WithoutDistortion(const CameraModel& camera);
 
-/// For each pixel of that camera, where it lies in the distorted image; far outside of it where the
-/// lens sees nothing. For cv::remap.
+/// Map for cv::remap: the place in the distorted image of each pixel of the camera without
+/// distortion, or a place far outside the image where the lens sees nothing.
 cv::Mat2f UndistortionMap(const CameraModel& camera);
 
 }  // namespace fenestra

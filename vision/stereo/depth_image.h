@@ -7,7 +7,7 @@
 
 namespace fenestra {
 
-/// z = f B / d of every pixel [m]; 0 where there is no disparity.
+/// Computes z = f B / d for every pixel [m]; 0 where there is no disparity.
 cv::Mat1f DepthFromDisparity(const cv::Mat1f& disparity, const RectifiedCamera& camera);
 
 struct DepthRange {
@@ -15,22 +15,23 @@ struct DepthRange {
   double farthest_m;
 };
 
-/// 8-bit picture of a depth image for edge detection: no depth is 0 and the range is spread over
-/// 64 to 255, so that the step from nothing to the nearest depth is an edge as well.
+/// Converts a depth image to 8 bits for edge detection. Pixels without depth become 0 and the range
+/// is mapped to 64 to 255, so that the step from no depth to the nearest depth is an edge as well.
 cv::Mat1b ToEightBit(const cv::Mat1f& depth_m, const DepthRange& range);
 
-/// The part of a depth image that holds anything; 0 elsewhere.
+/// The non-empty part of a depth image.
 struct DepthPatch {
   cv::Rect box;
-  cv::Mat1f depth_m;  ///< Of the box.
+  cv::Mat1f depth_m;  ///< Depth within the box.
 
-  /// As an image of this size, in which the box must lie.
+  /// Returns an image of the given size, which must contain the box.
   cv::Mat1f In(const cv::Size& size) const;
 };
 
-/// The depth image with the contour closed (the paper's Fig. 5): the depth of `plane` on a ring of
-/// `thickness_px` along the inside of the convex `hull`, and on the matched pixels within the hull
-/// that lie on the plane. Within the box of the hull, as there is nothing outside.
+/// Closes the contour in a depth image (the paper's Fig. 5): the result has the depth of `plane` on
+/// a ring of `thickness_px` along the inside of the convex `hull`, and at the matched pixels within
+/// the hull that lie on the plane. It covers the bounding box of the hull, since there is nothing
+/// outside it.
 DepthPatch CloseGaps(const cv::Mat1f& disparity, const std::vector<cv::Point>& hull,
                      const DisparityPlane& plane, double plane_tolerance_px, int thickness_px,
                      const RectifiedCamera& camera);

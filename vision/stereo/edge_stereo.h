@@ -10,20 +10,20 @@
 
 namespace fenestra {
 
-/// A dark-framed window by its edges, fitted as one rectangle to both images.
+/// Detects a dark-framed window by its edges and fits one rectangle to both images.
 ///
 ///   stage      what                                                         where
 ///   rectify    Bouguet's rectification of both images                       rectification.h
-///   segments   straight edges of both, by the side of something dark        edge_segments.h
+///   segments   straight edges of both, grouped by the side that they may be edge_segments.h
 ///   propose    dark quadrilaterals of the left image                        dark_quadrilateral.h
 ///   match      their upright sides in the right image: corners in space     frame_seed.h
 ///   fit        edges to sub-pixel in both images as delivered, one          frame_fitter.h
 ///              rectangle with a border fitted to all of them
-///   choose     the clearest; the others go with it
+///   choose     the clearest, which names the others                         frame_score.h
 ///
-/// Estimates are in L, the unrectified left camera, with the fit's covariance: what noise in the
-/// images makes of it, given the calibration. An error of the calibration comes on top.
-/// Pictures in the log: "rectified", "segments", "edge_points".
+/// Estimates are in L, the unrectified left camera. Their covariance is that of the fit: it covers
+/// the noise of the images but not errors of the calibration. Pictures in the log: "rectified",
+/// "segments", "edge_points".
 class EdgeStereoDetector : public Detector {
  public:
   /// Throws InputError for options that Validate refuses and for a calibration that cannot be
@@ -33,7 +33,7 @@ class EdgeStereoDetector : public Detector {
   SensorKind sensor() const override { return SensorKind::kStereo; }
 
   /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
-  /// "implausible_shape", "not_dark", "light_frame", by how far the best candidate came;
+  /// "implausible_shape", "not_dark", "light_frame", depending on how far the best candidate got;
   /// "unexpected_size", "unexpected_shape" or "unexpected_grey" with a prior.
   Detection Detect(const Observation& observation, StageLog& log) const override;
 

@@ -1,6 +1,6 @@
 #include "vision/stereo/edge_stereo_options.h"
 
-#include "core/demands.h"
+#include "core/faults.h"
 
 namespace fenestra {
 namespace {
@@ -24,11 +24,11 @@ const Table& EdgeStereoParameters() {
 }
 
 void Validate(const Options& options) {
-  Demands demand("edge-stereo");
-  demand.Add(EdgeStereoParameters().Objections(options));
-  demand.Add(FaultsOf(options.search));
-  demand.Add(FaultsOf(options.prior));
-  demand.ThrowUnlessMet();
+  Faults faults("edge-stereo");
+  faults.Add(EdgeStereoParameters().Objections(options));
+  faults.Add(FaultsOf(options.search));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

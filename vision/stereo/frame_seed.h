@@ -11,23 +11,24 @@
 
 namespace fenestra {
 
-/// A dark quadrilateral in both views that may be a rectangle in space.
+/// A dark quadrilateral seen in both views that may be a rectangle in space.
 struct FrameSeed {
-  std::array<Eigen::Vector3d, 4> p_FV;  ///< In the rectified left camera.
-  double clarity = 0.0;                 ///< Mean of both views' DarkInside.
-  double length_px = 0.0;               ///< Of both views' edges together.
+  std::array<Eigen::Vector3d, 4> p_FV;  ///< Corners in the frame of the rectified left camera.
+  double clarity = 0.0;                 ///< Mean of DarkInside over both views.
+  double length_px = 0.0;               ///< Total length of the edges in both views.
 };
 
-/// Finds the sides of a quadrilateral of the rectified left image again in the right one. Each
-/// corner's disparity is that of its upright side; every choice of edges of the right image that
-/// makes a plausible rectangle in space of them, and that is dark in the right image too, is a
-/// seed. Corners are in the mean of both views' rows, so that neither view comes first; where the
-/// right one has no such level edge, in the left one's.
+/// Matches the sides of a quadrilateral in the rectified left image to edges in the right one. The
+/// disparity of a corner is that of its vertical side. Every choice of edges in the right image
+/// that yields a plausible rectangle in space and is dark in the right image, too, is a seed. A
+/// corner's row is the mean of both views, so that the views are treated alike, or that of the left
+/// view if the right one has no matching horizontal edge.
 std::vector<FrameSeed> FindSeeds(const DarkQuadrilateral& left, const EdgeSegments& right_segments,
                                  const cv::Mat1b& right_image, const RectifiedCamera& camera,
                                  const FrameLimits& limits, const DarknessSettings& darkness);
 
-/// The clearest first; of those that are nearly the same only the clearest, and at most `most`.
+/// Returns at most `most` seeds, the clearest first; of several that nearly coincide, only the
+/// clearest.
 std::vector<FrameSeed> ClearestSeeds(std::vector<FrameSeed> seeds, size_t most);
 
 }  // namespace fenestra

@@ -11,8 +11,8 @@
 
 namespace fenestra {
 
-/// What these options make of block matching with a rectified camera whose images are `width_px`
-/// wide.
+/// The settings of block matching that follow from the options for a rectified camera whose images
+/// are `width_px` wide.
 BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
                                        const RectifiedCamera& camera, int width_px);
 
@@ -26,16 +26,17 @@ BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
 ///   close_gaps    connected components; one closed contour from two bands    frame_hypothesis.h
 ///   edges         Canny on the depth image                                   closed_contour.h
 ///   contour       the closed contour's four sides                            quadrilateral.h
-///   centroid      corners on the frame's plane, meeting of the diagonals     window_rectangle.h
+///   centroid      corners on the frame's plane, crossing of the diagonals    window_rectangle.h
 ///
-/// Estimates are in L, the unrectified left camera, with the covariance that window_covariance.h
-/// makes of the plane's residuals and two stated errors of block matching, given the calibration.
-/// The window with the best score comes first, others with it. Pictures in the log: "rectified",
-/// "depth_image", and of the best "closed_contour" and "edges".
+/// Estimates are in L, the unrectified left camera. Their covariance, given the calibration, is
+/// derived from the plane's residuals and two stated errors of block matching
+/// (window_covariance.h). The window with the best score is reported and names the others. Pictures
+/// in the log: "rectified", "depth_image", and for the best window "closed_contour" and "edges".
 ///
 /// Departures from the paper, which is brief: contours are closed across the frame's horizontal
-/// sides, which block matching cannot see; a second search near the first result where that holds
-/// no frame; corners are moved in by what the SAD window fattens. The last two are options.
+/// sides, which block matching cannot see; if the first search finds no frame, a second one is made
+/// near its result; and corners are moved inwards by the amount that the SAD block fattens the
+/// contour. The last two are options.
 class PaperStereoDetector : public Detector {
  public:
   /// Throws InputError for options that Validate refuses and for a calibration that cannot be
@@ -49,7 +50,7 @@ class PaperStereoDetector : public Detector {
   Detection Detect(const Observation& observation, StageLog& log) const override;
 
  private:
-  /// Disparities, and the patches that they make.
+  /// Disparities and the patches that they form.
   struct Matches {
     cv::Mat1f disparity;
     std::vector<MatchedPatch> patches;
@@ -57,14 +58,14 @@ class PaperStereoDetector : public Detector {
   using Frames = std::variant<std::vector<FrameHypothesis>, Miss>;
 
   Matches Match(const RectifiedPair& pair) const;
-  /// nullopt where that changes nothing.
+  /// Returns nullopt if that changes nothing.
   std::optional<Matches> MatchAgain(const RectifiedPair& pair, const Matches& matches) const;
-  /// They refer to the matches.
+  /// The frames refer to the matches.
   Frames FindFramesIn(const Matches& matches) const;
-  /// The stages from close_gaps on.
+  /// Runs the stages from close_gaps on.
   Detection FindWindows(const RectifiedPair& pair, const Matches& matches,
                         const std::vector<FrameHypothesis>& frames, StageLog& log) const;
-  /// Those from edges on, for one frame.
+  /// Runs the stages from edges on for one frame.
   Detection MeasureFrame(const RectifiedPair& pair, const FrameHypothesis& frame,
                          const DepthPatch& closed, StageLog& log, bool with_pictures) const;
   std::optional<Quadrilateral> FindCorners(const std::vector<cv::Point>& contour) const;

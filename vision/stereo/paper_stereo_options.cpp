@@ -1,6 +1,6 @@
 #include "vision/stereo/paper_stereo_options.h"
 
-#include "core/demands.h"
+#include "core/faults.h"
 #include "core/pose.h"
 
 namespace fenestra {
@@ -95,15 +95,16 @@ const Table& PaperStereoParameters() {
 }
 
 void Validate(const Options& options) {
-  Demands demand("paper-stereo");
-  demand.Add(PaperStereoParameters().Objections(options));
-  demand(options.sad_window_px % 2 == 1, "sad_window_px must be odd");
-  demand(options.nearest_m < options.farthest_m, "nearest_m must be less than farthest_m");
-  demand(options.min_side_m < options.max_side_m, "min_side_m must be less than max_side_m");
-  demand(options.canny_low_dn <= options.canny_high_dn,
-         "canny_low_dn must not be more than canny_high_dn");
-  demand.Add(FaultsOf(options.prior));
-  demand.ThrowUnlessMet();
+  Faults faults("paper-stereo");
+  faults.Add(PaperStereoParameters().Objections(options));
+  faults.Require(options.sad_window_px % 2 == 1, "sad_window_px must be odd");
+  faults.Require(options.nearest_m < options.farthest_m, "nearest_m must be less than farthest_m");
+  faults.Require(options.min_side_m < options.max_side_m,
+                 "min_side_m must be less than max_side_m");
+  faults.Require(options.canny_low_dn <= options.canny_high_dn,
+                 "canny_low_dn must not be more than canny_high_dn");
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
 }
 
 }  // namespace fenestra

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/check.h"
-#include "core/demands.h"
+#include "core/faults.h"
 #include "core/input_error.h"
 
 namespace fenestra {
@@ -25,21 +25,22 @@ cv::Mat OpenCvDistortion(const CameraModel& camera) {
 }
 
 void Validate(const StereoCalibration& calibration) {
-  Demands demand("stereo calibration");
+  Faults faults("stereo calibration");
   const CameraModel& l = calibration.left;
   const CameraModel& r = calibration.right;
-  demand(l.width_px() == r.width_px() && l.height_px() == r.height_px(),
-         fmt::format("the images must have one size, not {} x {} px and {} x {} px", l.width_px(),
-                     l.height_px(), r.width_px(), r.height_px()));
+  faults.Require(l.width_px() == r.width_px() && l.height_px() == r.height_px(),
+                 fmt::format("the images must have one size, not {} x {} px and {} x {} px",
+                             l.width_px(), l.height_px(), r.width_px(), r.height_px()));
   const int smallest = StereoRectification::kSmallestSidePx;
-  demand(std::min({l.width_px(), l.height_px(), r.width_px(), r.height_px()}) >= smallest,
-         fmt::format("images must be at least {} px wide and high to be rectified", smallest));
+  faults.Require(
+      std::min({l.width_px(), l.height_px(), r.width_px(), r.height_px()}) >= smallest,
+      fmt::format("images must be at least {} px wide and high to be rectified", smallest));
   const Eigen::Vector3d& p_RL = calibration.X_RL.translation();
-  demand(p_RL.x() < 0.0 && -p_RL.x() > std::abs(p_RL.y()),
-         fmt::format("the right camera must stand to the right of the left one; T is "
-                     "({:g}, {:g}, {:g}) m where its x must be negative and the largest",
-                     p_RL.x(), p_RL.y(), p_RL.z()));
-  demand.ThrowUnlessMet();
+  faults.Require(p_RL.x() < 0.0 && -p_RL.x() > std::abs(p_RL.y()),
+                 fmt::format("the right camera must stand to the right of the left one; T is "
+                             "({:g}, {:g}, {:g}) m where its x must be negative and the largest",
+                             p_RL.x(), p_RL.y(), p_RL.z()));
+  faults.ThrowIfAny();
 }
 
 void CheckSize(const cv::Mat1b& image, const cv::Size& size, const char* which) {

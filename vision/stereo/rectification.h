@@ -9,7 +9,7 @@
 
 namespace fenestra {
 
-/// Both images of a pair, resampled so that a point of the world has the same row in both.
+/// Both images of a pair, resampled so that a point in space has the same row in both.
 struct RectifiedPair {
   cv::Mat1b left;
   cv::Mat1b right;
@@ -18,7 +18,7 @@ struct RectifiedPair {
 /// Bouguet's rectification: each camera is turned by half of the relative rotation, then both so
 /// that the baseline becomes the image's x axis. G. Bradski and A. Kaehler, "Learning OpenCV",
 /// 2008, ch. 12; cv::stereoRectify with CALIB_ZERO_DISPARITY (both principal points equal, so that
-/// infinity has disparity 0). The maps are made once; bilinear resampling.
+/// infinity has disparity 0). The maps are computed once; resampling is bilinear.
 class StereoRectification {
  public:
   /// `alpha`: 0 zooms until only pixels that both sensors saw remain, 1 shrinks until none that a

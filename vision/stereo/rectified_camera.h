@@ -4,8 +4,9 @@
 
 namespace fenestra {
 
-/// The rectified pair: two pinholes with the same K and parallel axes, the right one displaced by
-/// the baseline along +x. Frame F: the rectified left camera; it shares its origin with L.
+/// The rectified pair: two pinhole cameras with the same K and parallel axes, the right one
+/// displaced by the baseline along +x. Frame F is that of the rectified left camera; it shares its
+/// origin with L.
 ///
 ///     u = f X/Z + cx,   v = f Y/Z + cy                                    (rectified left pixel)
 ///     d = u_left - u_right = f B / Z                                      (disparity)
@@ -17,7 +18,7 @@ struct RectifiedCamera {
   double cy_px = 0.0;
   double baseline_m = 0.0;
 
-  /// Z = f B / d and back. Domain: positive. First-order error: σ_Z = Z² σ_d / (f B).
+  /// Converts by Z = f B / d. Domain: positive values. First-order error: σ_Z = Z² σ_d / (f B).
   double DepthFromDisparity(double disparity_px) const { return f_px * baseline_m / disparity_px; }
   double DisparityFromDepth(double depth_m) const { return f_px * baseline_m / depth_m; }
 

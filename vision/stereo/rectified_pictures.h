@@ -8,11 +8,12 @@
 
 namespace fenestra {
 
-/// Both images side by side with horizontal lines: the same point must be at the same height.
+/// Draws both images side by side with horizontal lines, on which corresponding points must have
+/// the same height.
 cv::Mat3b DrawRectifiedPair(const RectifiedPair& pair);
 
-/// How points in L appear in DrawRectifiedPair's picture: on its left half, which is also how they
-/// appear in any picture of the rectified left camera, and on its right half.
+/// Views that project points in L into DrawRectifiedPair's picture. The first one is for its left
+/// half, and for any picture of the rectified left camera; the second is for its right half.
 std::array<PictureView, 2> RectifiedViews(const StereoRectification& rectification);
 
 }  // namespace fenestra

@@ -6,10 +6,10 @@
 
 namespace fenestra {
 
-/// Depth in false colours, near red, far blue; no depth black.
+/// Draws depth in false colours, near red and far blue; pixels without depth are black.
 cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range);
 
-/// DetectEdges' result for a box of an image, in an image of this size.
+/// Places DetectEdges' result for a box of an image into an image of the given size.
 cv::Mat1b DrawEdges(const cv::Mat1b& edges, const cv::Rect& box, const cv::Size& size);
 
 }  // namespace fenestra

@@ -10,15 +10,16 @@
 
 namespace fenestra {
 
-/// The window in the rectified left camera F: each corner is the point where its pixel's ray
-/// meets the frame's plane, the centroid the intersection of the diagonals. (In a rectangle that
-/// is the centre, and unlike the mean of the corners it is so for the perspective image, too.)
-/// nullopt if a corner's ray does not meet the plane in front of the camera.
+/// Computes the window in the frame F of the rectified left camera. Each corner is the point where
+/// the ray of its pixel meets the window's plane, and the centroid is the intersection of the
+/// diagonals. (For a rectangle this is the centre, and unlike the mean of the corners it is
+/// invariant under perspective.) Returns nullopt if a corner's ray does not meet the plane in front
+/// of the camera.
 std::optional<WindowEstimate> WindowOnPlane(const Quadrilateral& corners_px,
                                             const DisparityPlane& plane,
                                             const RectifiedCamera& camera);
 
-/// The same window in the frame C that R_CF turns F to.
+/// Transforms an estimate from frame F to frame C, which is rotated by R_CF.
 WindowEstimate Rotated(const Eigen::Matrix3d& R_CF, const WindowEstimate& estimate_F);
 
 }  // namespace fenestra
