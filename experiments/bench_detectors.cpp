@@ -6,14 +6,14 @@
 
 #include <opencv2/core.hpp>
 
-#include "experiments/cell_bench.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
 #include "vision/detector_registry.h"
-#include "vision/rgbd/cloud_shape.h"
-#include "vision/rgbd/narf_key_points.h"
-#include "vision/rgbd/paper_rgbd.h"
-#include "vision/stereo/paper_stereo.h"
+#include "vision/rgbd/paper/cloud_shape.h"
+#include "vision/rgbd/paper/narf_key_points.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 namespace fenestra {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/input_error.h"
-#include "renderers/pane_kernels.h"
+#include "core/io/input_error.h"
+#include "renderers/tracing/pane_kernels.h"
 
 namespace fenestra {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "renderers/light_transport.h"
-#include "renderers/ray_grid.h"
-#include "renderers/render_types.h"
+#include "renderers/light/light_transport.h"
+#include "renderers/tracing/ray_grid.h"
+#include "renderers/tracing/render_types.h"
 
 namespace fenestra {
 

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "renderers/lane_kernels.h"
-#include "renderers/light_transport.h"
-#include "renderers/net_samples.h"
-#include "renderers/pane_kernels.h"
+#include "renderers/light/lane_kernels.h"
+#include "renderers/light/light_transport.h"
 #include "renderers/ray_caster.h"
-#include "renderers/traced_scene.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
-#include "scenes/tessellation.h"
+#include "renderers/tracing/pane_kernels.h"
+#include "renderers/tracing/sobol_samples.h"
+#include "renderers/tracing/traced_scene.h"
+#include "scenes/facade/facade.h"
+#include "scenes/mesh/tessellation.h"
+#include "scenes/targets/paper_target.h"
 
 namespace fenestra {
 namespace {

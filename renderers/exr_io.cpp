@@ -13,8 +13,8 @@
 #include <cstring>
 #include <set>
 
-#include "core/atomic_file.h"
-#include "core/faults.h"
+#include "core/io/atomic_file.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/aov_cast.h"
-#include "renderers/illumination.h"
-#include "renderers/light_transport.h"
-#include "renderers/pixel_sampling.h"
+#include "renderers/light/illumination.h"
+#include "renderers/light/light_transport.h"
+#include "renderers/sampling/sample_image.h"
 
 namespace fenestra {
 namespace {

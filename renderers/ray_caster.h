@@ -3,10 +3,10 @@
 #include <memory>
 #include <opencv2/core.hpp>
 
-#include "core/pose.h"
-#include "core/random_stream.h"
-#include "renderers/ray_grid.h"
-#include "renderers/render_types.h"
+#include "core/geometry/pose.h"
+#include "core/random/random_stream.h"
+#include "renderers/tracing/ray_grid.h"
+#include "renderers/tracing/render_types.h"
 #include "scenes/lighting.h"
 #include "scenes/scene.h"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 #include "scenes/scene.h"
 
 namespace fenestra {

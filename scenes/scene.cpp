@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "scenes/lamp.h"
 #include "scenes/texture.h"
 

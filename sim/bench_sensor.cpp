@@ -5,16 +5,16 @@
 
 #include <vector>
 
-#include "core/freed_memory.h"
-#include "renderers/lane_kernels.h"
-#include "renderers/pane_kernels.h"
-#include "renderers/traced_scene.h"
-#include "scenes/facade.h"
-#include "sim/image_sensor.h"
-#include "sim/lens.h"
-#include "sim/stereo_rig.h"
-#include "sim/structured_light_sensor.h"
-#include "sim/viewpoint.h"
+#include "core/system/freed_memory.h"
+#include "renderers/light/lane_kernels.h"
+#include "renderers/tracing/pane_kernels.h"
+#include "renderers/tracing/traced_scene.h"
+#include "scenes/facade/facade.h"
+#include "sim/camera/image_sensor.h"
+#include "sim/camera/lens.h"
+#include "sim/stereo/stereo_rig.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

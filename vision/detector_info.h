@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/check.h"
-#include "core/detector.h"
-#include "core/parameter_table.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
+#include "core/io/parameter_table.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 

@@ -6,9 +6,9 @@
 #include <opencv2/core/version.hpp>
 #include <string>
 
-#include "core/calibration.h"
-#include "core/detector.h"
-#include "core/parameter_table.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
+#include "core/io/parameter_table.h"
 #include "vision/detector_info.h"
 
 /// Detectors in shared libraries. A library that calls, once, outside of any function,

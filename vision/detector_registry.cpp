@@ -1,11 +1,11 @@
 #include "vision/detector_registry.h"
 
-#include "core/check.h"
-#include "core/input_error.h"
-#include "vision/rgbd/paper_rgbd.h"
-#include "vision/rgbd/plane_rgbd.h"
-#include "vision/stereo/edge_stereo.h"
-#include "vision/stereo/paper_stereo.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
+#include "vision/rgbd/plane/plane_rgbd.h"
+#include "vision/stereo/edge/edge_stereo.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 namespace fenestra {
 namespace {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/build_id.h"
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "core/system/build_id.h"
 #include "vision/detector_plugin.h"
 #include "vision/detector_registry.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/pose.h"
-#include "core/random_stream.h"
+#include "core/geometry/pose.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 

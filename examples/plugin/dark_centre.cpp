@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/detector_plugin.h"
 
 namespace {

@@ -6,9 +6,9 @@
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
-#include "experiments/theory/bound_table.h"
+#include "experiments/report/bound_table.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -3,10 +3,10 @@
 #include <charconv>
 #include <filesystem>
 
-#include "core/input_error.h"
-#include "experiments/board_pictures.h"
-#include "experiments/calibration_report.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
+#include "experiments/rig_calibration/board_pictures.h"
+#include "experiments/rig_calibration/calibration_report.h"
 
 namespace fenestra::cli {
 namespace {

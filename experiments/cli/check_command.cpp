@@ -4,14 +4,14 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
-#include "experiments/bounds/check_report.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "experiments/check/check_report.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"
-#include "experiments/result_files.h"
-#include "experiments/store.h"
-#include "experiments/study_catalogue.h"
+#include "experiments/run/result_files.h"
+#include "experiments/store/store.h"
+#include "experiments/study_file/study_catalogue.h"
 
 namespace fenestra::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/did_you_mean.h"
-#include "core/observation.h"
+#include "core/detection/observation.h"
+#include "core/io/did_you_mean.h"
 #include "scenes/lighting.h"
 
 namespace fenestra::cli {

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-#include "core/atomic_file.h"
-#include "core/image_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
-#include "experiments/depth_curves.h"
+#include "experiments/depth_bench/depth_curves.h"
 
 namespace fenestra::cli {
 

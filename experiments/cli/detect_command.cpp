@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "core/calibration_io.h"
-#include "core/detection_json.h"
-#include "core/image_io.h"
+#include "core/detection/detection_json.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/trial_files.h"
+#include "experiments/trial_files/trial_files.h"
 
 namespace fenestra::cli {
 namespace {

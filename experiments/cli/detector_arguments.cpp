@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "core/did_you_mean.h"
-#include "core/input_error.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/detector_choice_reader.h"
+#include "experiments/study_file/detector_reader.h"
 
 namespace fenestra::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/cli/command_line.h"
-#include "experiments/study.h"
+#include "experiments/study/study.h"
 
 namespace fenestra::cli {
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/atomic_file.h"
-#include "core/did_you_mean.h"
-#include "core/image_io.h"
-#include "core/input_error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/image_io.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/emva/report.h"
-#include "experiments/factors.h"
-#include "sim/spectral_response.h"
+#include "experiments/study/factors.h"
+#include "sim/camera/spectral_response.h"
 
 namespace fenestra::cli {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/sampling.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
-#include "experiments/trial_scene.h"
+#include "experiments/sampling/trial_sampler.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/trial_scene.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
@@ -14,11 +14,11 @@
 #include "experiments/fixtures/fixtures.h"
 #include "experiments/fixtures/staging_folder.h"
 #include "experiments/fixtures/trial_selection.h"
-#include "experiments/folder_size.h"
-#include "experiments/number_format.h"
-#include "experiments/result_files.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
+#include "experiments/output/number_format.h"
+#include "experiments/run/folder_size.h"
+#include "experiments/run/result_files.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -2,9 +2,9 @@
 
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/factors.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
+#include "experiments/study/factors.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

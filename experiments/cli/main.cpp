@@ -4,11 +4,11 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
-#include "core/freed_memory.h"
-#include "core/input_error.h"
-#include "core/program.h"
+#include "core/io/input_error.h"
+#include "core/system/freed_memory.h"
+#include "core/system/program.h"
 #include "experiments/cli/commands.h"
-#include "experiments/library_versions.h"
+#include "experiments/run/library_versions.h"
 
 namespace fenestra::cli {
 namespace {

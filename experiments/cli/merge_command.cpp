@@ -3,7 +3,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/print_result.h"
-#include "experiments/merge.h"
+#include "experiments/run/merge.h"
 
 namespace fenestra::cli {
 

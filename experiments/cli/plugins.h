@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/cli/command_line.h"
-#include "experiments/detector_maker.h"
+#include "experiments/trial/detector_maker.h"
 
 namespace fenestra::cli {
 

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "experiments/prior_text.h"
-#include "experiments/report.h"
-#include "experiments/study_reader.h"
+#include "experiments/report/provenance.h"
+#include "experiments/report/report.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

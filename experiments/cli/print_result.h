@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "experiments/summary.h"
+#include "experiments/analysis/cell_summary.h"
 
 namespace fenestra::cli {
 

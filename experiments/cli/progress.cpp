@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "experiments/number_format.h"
+#include "experiments/output/number_format.h"
 
 namespace fenestra::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "experiments/run_study.h"
+#include "experiments/run/run_study.h"
 
 namespace fenestra::cli {
 

@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <memory>
 
+#include "experiments/analysis/paired_ratio.h"
 #include "experiments/cli/commands.h"
-#include "experiments/paired_ratio.h"
-#include "experiments/paired_ratio_report.h"
-#include "experiments/result_files.h"
-#include "experiments/store.h"
+#include "experiments/report/paired_ratio_report.h"
+#include "experiments/run/result_files.h"
+#include "experiments/store/store.h"
 
 namespace fenestra::cli {
 

@@ -4,16 +4,16 @@
 #include <map>
 #include <optional>
 
-#include "core/input_error.h"
-#include "core/pose.h"
-#include "experiments/cell_bench.h"
+#include "core/geometry/pose.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/scene_files.h"
-#include "experiments/sequence_writer.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_reader.h"
-#include "experiments/trial_files.h"
+#include "experiments/sequence/sequence_writer.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
+#include "experiments/trial_files/scene_views.h"
+#include "experiments/trial_files/trial_files.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/replay.h"
+#include "experiments/run/replay.h"
 
 namespace fenestra::cli {
 namespace {

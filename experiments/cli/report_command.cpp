@@ -4,7 +4,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/print_result.h"
-#include "experiments/result_files.h"
+#include "experiments/run/result_files.h"
 
 namespace fenestra::cli {
 namespace {

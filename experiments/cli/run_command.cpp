@@ -6,7 +6,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/print_result.h"
 #include "experiments/cli/study_run_arguments.h"
-#include "experiments/study_catalogue.h"
+#include "experiments/study_file/study_catalogue.h"
 
 namespace fenestra::cli {
 namespace {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
-#include "experiments/report.h"
-#include "experiments/score_sequence.h"
+#include "experiments/report/report.h"
+#include "experiments/sequence/score_sequence.h"
 
 namespace fenestra::cli {
 namespace {

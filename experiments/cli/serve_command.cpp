@@ -5,8 +5,8 @@
 
 #include <iostream>
 
-#include "core/did_you_mean.h"
-#include "core/input_error.h"
+#include "core/io/did_you_mean.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "vision/detector_registry.h"

@@ -3,14 +3,14 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/atomic_file.h"
+#include "core/io/atomic_file.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/study_run_arguments.h"
-#include "experiments/study_catalogue.h"
-#include "experiments/study_explanation.h"
-#include "experiments/study_reader.h"
-#include "experiments/study_schema.h"
+#include "experiments/run/study_explanation.h"
+#include "experiments/study_file/study_catalogue.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/study_file/study_schema.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

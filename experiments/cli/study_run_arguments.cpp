@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/input_error.h"
-#include "core/program.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
 #include "experiments/cli/interrupt.h"
 #include "experiments/cli/plugins.h"
 #include "experiments/cli/progress.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

@@ -6,13 +6,13 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/atomic_file.h"
-#include "core/input_error.h"
-#include "core/shell_quoting.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/shell_quoting.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"
-#include "experiments/slurm_scripts.h"
-#include "experiments/study_catalogue.h"
+#include "experiments/run/slurm_scripts.h"
+#include "experiments/study_file/study_catalogue.h"
 
 namespace fenestra::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra::emva {
 namespace {

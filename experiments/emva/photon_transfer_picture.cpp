@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "experiments/emva/report.h"
-#include "experiments/plot.h"
+#include "experiments/output/plot.h"
 
 namespace fenestra::emva {
 namespace {

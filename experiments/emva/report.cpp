@@ -5,7 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "experiments/text_table.h"
+#include "experiments/output/text_table.h"
 
 namespace fenestra::emva {
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra::emva {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/emva/evaluation.h"
-#include "sim/image_sensor.h"
+#include "sim/camera/image_sensor.h"
 
 namespace fenestra::emva {
 

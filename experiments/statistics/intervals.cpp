@@ -10,7 +10,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <span>
 
-#include "core/random_stream.h"
-#include "experiments/statistics.h"
+#include "core/random/random_stream.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/check.h"
+#include "core/system/check.h"
 #include "experiments/statistics/intervals.h"
 
 namespace fenestra {

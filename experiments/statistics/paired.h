@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <openturns/MartinezSensitivityAlgorithm.hxx>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

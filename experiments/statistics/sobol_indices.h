@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/random_stream.h"
-#include "experiments/statistics.h"
+#include "core/random/random_stream.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 

@@ -88,10 +88,11 @@ TEST(IncludeDirectionTest, IncludesGoDownTheFloorsOnly) {
 
 TEST(IncludeDirectionTest, AForbiddenIncludeIsFound) {
   const Rules rules = ProjectRules();
-  EXPECT_EQ(Violations(rules, "vision", "f", "#include \"sim/stereo_rig.h\"\n").size(), 1u);
+  EXPECT_EQ(Violations(rules, "vision", "f", "#include \"sim/stereo/stereo_rig.h\"\n").size(), 1u);
   EXPECT_EQ(Violations(rules, "core", "f", "#include \"scenes/scene.h\"\n").size(), 1u);
   EXPECT_EQ(Violations(rules, "core", "f", "#include \"pose.h\"\n").size(), 1u);
-  EXPECT_TRUE(Violations(rules, "sim", "f", "#include \"core/pose.h\"\n#include <map>\n").empty());
+  EXPECT_TRUE(
+      Violations(rules, "sim", "f", "#include \"core/geometry/pose.h\"\n#include <map>\n").empty());
 }
 
 }  // namespace

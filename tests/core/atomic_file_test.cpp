@@ -1,8 +1,8 @@
-#include "core/atomic_file.h"
+#include "core/io/atomic_file.h"
 
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

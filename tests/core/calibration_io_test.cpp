@@ -1,4 +1,4 @@
-#include "core/calibration_io.h"
+#include "core/geometry/calibration_io.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

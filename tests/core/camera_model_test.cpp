@@ -1,9 +1,9 @@
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
-#include "core/random_stream.h"
+#include "core/io/input_error.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

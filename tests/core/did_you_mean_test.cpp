@@ -1,4 +1,4 @@
-#include "core/did_you_mean.h"
+#include "core/io/did_you_mean.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 #include <gtest/gtest.h>
 

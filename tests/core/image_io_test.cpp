@@ -1,8 +1,8 @@
-#include "core/image_io.h"
+#include "core/io/image_io.h"
 
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

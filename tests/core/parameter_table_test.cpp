@@ -1,4 +1,4 @@
-#include "core/parameter_table.h"
+#include "core/io/parameter_table.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/stage_log.h"
+#include "core/detection/stage_log.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/yaml_reader.h"
+#include "core/io/yaml_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "experiments/board_calibration.h"
+#include "experiments/trial/board_calibration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "experiments/board_pictures.h"
+#include "experiments/rig_calibration/board_pictures.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

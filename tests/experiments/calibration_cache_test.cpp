@@ -1,4 +1,4 @@
-#include "experiments/calibration_cache.h"
+#include "experiments/trial/calibration_cache.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/board_calibration.h"
-#include "sim/stereo_rig.h"
+#include "experiments/trial/board_calibration.h"
+#include "sim/stereo/stereo_rig.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

@@ -1,11 +1,11 @@
-#include "experiments/calibrated_rig.h"
+#include "experiments/trial/calibrated_rig.h"
 
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "experiments/board_calibration.h"
+#include "experiments/trial/board_calibration.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

@@ -1,11 +1,11 @@
-#include "experiments/detector_comparison.h"
+#include "experiments/analysis/detector_comparison.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -1,6 +1,6 @@
 // Detectors that run outside of this process, in studies.
 
-#include "experiments/detector_maker.h"
+#include "experiments/trial/detector_maker.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,12 +8,12 @@
 #include <algorithm>
 #include <mutex>
 
-#include "core/input_error.h"
-#include "experiments/report.h"
-#include "experiments/run_study.h"
-#include "experiments/run_trials.h"
-#include "experiments/study_reader.h"
-#include "experiments/study_writer.h"
+#include "core/io/input_error.h"
+#include "experiments/report/report.h"
+#include "experiments/run/run_study.h"
+#include "experiments/run/run_trials.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/study_file/study_writer.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/detector_registry.h"
 

@@ -1,4 +1,4 @@
-#include "experiments/distribution.h"
+#include "experiments/study/distribution.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -6,8 +6,8 @@
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "experiments/cell_bench.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra {

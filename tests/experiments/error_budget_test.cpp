@@ -1,4 +1,4 @@
-#include "experiments/error_budget.h"
+#include "experiments/analysis/error_budget.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "experiments/sampling.h"
+#include "experiments/sampling/trial_sampler.h"
 #include "tests/experiments/study_text.h"
 
 namespace fenestra {

@@ -1,12 +1,12 @@
-#include "experiments/facade_factors.h"
+#include "experiments/study/facade_factors.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "experiments/factors.h"
-#include "experiments/scoring.h"
-#include "sim/ground_truth.h"
+#include "experiments/study/factors.h"
+#include "experiments/trial/scoring.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/factors.h"
+#include "experiments/study/factors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/figure_tally.h"
+#include "experiments/analysis/figure_tally.h"
 
 #include <gtest/gtest.h>
 

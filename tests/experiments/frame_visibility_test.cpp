@@ -1,4 +1,4 @@
-#include "experiments/frame_visibility.h"
+#include "experiments/trial_files/target_visibility.h"
 
 #include <gtest/gtest.h>
 

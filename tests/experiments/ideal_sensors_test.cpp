@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "experiments/cell_bench.h"
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra {

@@ -1,4 +1,4 @@
-#include "experiments/merge.h"
+#include "experiments/run/merge.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

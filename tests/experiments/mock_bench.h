@@ -3,9 +3,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "experiments/run_trials.h"
-#include "experiments/sampling.h"
-#include "sim/stereo_rig.h"
+#include "experiments/run/run_trials.h"
+#include "experiments/sampling/trial_sampler.h"
+#include "sim/stereo/stereo_rig.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra::testing {

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <string>
 
-#include "core/input_error.h"
-#include "experiments/report.h"
-#include "experiments/run_study.h"
-#include "experiments/study_reader.h"
+#include "core/io/input_error.h"
+#include "experiments/report/report.h"
+#include "experiments/run/run_study.h"
+#include "experiments/study_file/study_reader.h"
 #include "tests/experiments/mock_bench.h"
 #include "vision/detector_registry.h"
 

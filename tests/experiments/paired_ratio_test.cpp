@@ -1,12 +1,12 @@
-#include "experiments/paired_ratio.h"
+#include "experiments/analysis/paired_ratio.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "core/input_error.h"
-#include "experiments/paired_ratio_report.h"
+#include "core/io/input_error.h"
+#include "experiments/report/paired_ratio_report.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

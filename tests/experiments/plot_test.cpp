@@ -1,4 +1,4 @@
-#include "experiments/plot.h"
+#include "experiments/output/plot.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

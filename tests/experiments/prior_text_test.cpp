@@ -1,9 +1,9 @@
-#include "experiments/prior_text.h"
+#include "experiments/report/provenance.h"
 
 #include <gtest/gtest.h>
 
-#include "experiments/detector_choice_reader.h"
-#include "vision/window_prior.h"
+#include "core/detection/window_prior.h"
+#include "experiments/study_file/detector_reader.h"
 
 namespace fenestra {
 namespace {

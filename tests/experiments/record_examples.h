@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "core/random_stream.h"
-#include "experiments/trial_record.h"
+#include "core/random/random_stream.h"
+#include "experiments/trial/trial_record.h"
 
 namespace fenestra::testing {
 

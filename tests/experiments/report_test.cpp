@@ -1,4 +1,4 @@
-#include "experiments/report.h"
+#include "experiments/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <map>
 #include <sstream>
 
-#include "experiments/cell_tally.h"
-#include "experiments/number_format.h"
-#include "experiments/text_table.h"
+#include "experiments/analysis/cell_tally.h"
+#include "experiments/output/number_format.h"
+#include "experiments/output/text_table.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

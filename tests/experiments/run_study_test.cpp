@@ -1,7 +1,7 @@
 // Runs that are interrupted, killed, continued and refused. Sensor and detectors are mocks, so that
 // many runs fit into seconds; command_line_test.cpp has the same with the real program.
 
-#include "experiments/run_study.h"
+#include "experiments/run/run_study.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 #include <set>
 #include <thread>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "tests/experiments/mock_study.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,15 +1,15 @@
-#include "experiments/run_trials.h"
+#include "experiments/run/run_trials.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <mutex>
 
-#include "experiments/replay.h"
-#include "experiments/report.h"
-#include "experiments/run_study.h"
-#include "experiments/store.h"
-#include "experiments/study_reader.h"
+#include "experiments/report/report.h"
+#include "experiments/run/replay.h"
+#include "experiments/run/run_study.h"
+#include "experiments/store/store.h"
+#include "experiments/study_file/study_reader.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/detector_registry.h"
 

@@ -1,4 +1,4 @@
-#include "experiments/score_sequence.h"
+#include "experiments/sequence/score_sequence.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/calibration_io.h"
-#include "core/input_error.h"
-#include "experiments/report.h"
-#include "experiments/run_study.h"
-#include "experiments/sequence_writer.h"
-#include "experiments/store.h"
-#include "experiments/study_reader.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/input_error.h"
+#include "experiments/report/report.h"
+#include "experiments/run/run_study.h"
+#include "experiments/sequence/sequence_writer.h"
+#include "experiments/store/store.h"
+#include "experiments/study_file/study_reader.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

@@ -1,4 +1,4 @@
-#include "experiments/scoring.h"
+#include "experiments/trial/scoring.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "experiments/shard.h"
+#include "experiments/run/shard.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/shell_quoting.h"
+#include "core/system/shell_quoting.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/statistics.h"
+#include "experiments/statistics/moments.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

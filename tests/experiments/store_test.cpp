@@ -1,4 +1,4 @@
-#include "experiments/store.h"
+#include "experiments/store/store.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,10 +13,10 @@
 #include <sstream>
 #include <thread>
 
-#include "core/input_error.h"
-#include "experiments/cell_tally.h"
-#include "experiments/record_json.h"
-#include "experiments/result_files.h"
+#include "core/io/input_error.h"
+#include "experiments/analysis/cell_tally.h"
+#include "experiments/run/result_files.h"
+#include "experiments/store/record_json.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

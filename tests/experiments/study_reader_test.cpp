@@ -1,4 +1,4 @@
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "experiments/factor_reader.h"
+#include "experiments/study_file/factor_reader.h"
 #include "tests/experiments/study_text.h"
 
 namespace fenestra {

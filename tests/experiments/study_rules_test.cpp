@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/study_writer.h"
+#include "experiments/study_file/study_writer.h"
 #include "tests/experiments/study_text.h"
 
 // Studies that stop by themselves or look for an envelope.

@@ -1,4 +1,4 @@
-#include "experiments/study.h"
+#include "experiments/study/study.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "experiments/sampling.h"
+#include "experiments/sampling/trial_sampler.h"
 #include "tests/experiments/study_text.h"
 
 namespace fenestra {

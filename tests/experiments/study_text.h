@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "core/input_error.h"
-#include "core/yaml_reader.h"
-#include "experiments/study_reader.h"
+#include "core/io/input_error.h"
+#include "core/io/yaml_reader.h"
+#include "experiments/study_file/study_reader.h"
 
 namespace fenestra {
 

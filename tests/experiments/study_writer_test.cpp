@@ -1,9 +1,9 @@
-#include "experiments/study_writer.h"
+#include "experiments/study_file/study_writer.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/study_catalogue.h"
+#include "experiments/study_file/study_catalogue.h"
 #include "tests/experiments/study_text.h"
 #include "vision/detector_registry.h"
 

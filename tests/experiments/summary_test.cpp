@@ -1,12 +1,12 @@
-#include "experiments/summary.h"
+#include "experiments/analysis/cell_summary.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "experiments/cell_tally.h"
-#include "experiments/report.h"
+#include "experiments/analysis/cell_tally.h"
+#include "experiments/report/report.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra {

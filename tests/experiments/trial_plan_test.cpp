@@ -1,11 +1,11 @@
-#include "experiments/trial_plan.h"
+#include "experiments/analysis/trial_plan.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <map>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "experiments/statistics/looks.h"
 #include "tests/experiments/study_text.h"
 

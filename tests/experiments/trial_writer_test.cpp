@@ -1,8 +1,8 @@
-#include "experiments/trial_writer.h"
+#include "experiments/run/trial_writer.h"
 
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/experiments/record_examples.h"
 #include "tests/support/temporary_folder.h"
 

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include "core/observation_files.h"
-#include "experiments/cell_bench.h"
-#include "experiments/scoring.h"
-#include "experiments/study_reader.h"
-#include "experiments/trial_files.h"
+#include "core/detection/observation_files.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/scoring.h"
+#include "experiments/trial_files/trial_files.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/detector_registry.h"
 

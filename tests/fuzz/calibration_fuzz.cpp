@@ -1,7 +1,7 @@
 #include <cstdlib>
 
-#include "core/calibration_io.h"
-#include "core/input_error.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/input_error.h"
 #include "tests/fuzz/input_file.h"
 
 // A libFuzzer target: any bytes at all are a calibration or an InputError, and a calibration that

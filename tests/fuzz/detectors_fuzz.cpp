@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "vision/detector_registry.h"
 
 // A libFuzzer target: whatever the pixels, every detector gives a window, a Miss or an InputError.

@@ -1,4 +1,4 @@
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/exr_io.h"
 #include "tests/fuzz/input_file.h"
 

@@ -1,7 +1,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
-#include "core/image_io.h"
-#include "core/input_error.h"
+#include "core/io/image_io.h"
+#include "core/io/input_error.h"
 #include "tests/fuzz/input_file.h"
 
 // A libFuzzer target: any bytes at all are an image of the kind asked for or an InputError.

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/input_error.h"
-#include "experiments/result_files.h"
+#include "core/io/input_error.h"
+#include "experiments/run/result_files.h"
 
 // A libFuzzer target: whatever a result folder's files hold, they are read and reported, recovered,
 // or refused with an InputError. Bytes that begin as a journal of SQLite's are that of the sound

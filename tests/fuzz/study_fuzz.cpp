@@ -1,8 +1,8 @@
 #include <string>
 
-#include "core/input_error.h"
-#include "experiments/sequence.h"
-#include "experiments/study_reader.h"
+#include "core/io/input_error.h"
+#include "experiments/sequence/sequence.h"
+#include "experiments/study_file/study_reader.h"
 #include "tests/fuzz/input_file.h"
 
 // A libFuzzer target: any bytes at all are a study or a sequence, or an InputError.

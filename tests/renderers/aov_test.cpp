@@ -3,11 +3,11 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "core/input_error.h"
-#include "renderers/fresnel.h"
+#include "core/io/input_error.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
+#include "renderers/tracing/fresnel.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

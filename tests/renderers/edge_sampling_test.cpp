@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
-#include "renderers/film.h"
-#include "renderers/net_samples.h"
 #include "renderers/ray_caster.h"
+#include "renderers/sampling/film.h"
+#include "renderers/tracing/sobol_samples.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

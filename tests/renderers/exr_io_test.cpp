@@ -7,8 +7,8 @@
 #include <fstream>
 #include <limits>
 
-#include "core/input_error.h"
-#include "core/random_stream.h"
+#include "core/io/input_error.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

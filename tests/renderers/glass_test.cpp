@@ -4,9 +4,9 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "renderers/fresnel.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
+#include "renderers/tracing/fresnel.h"
+#include "scenes/facade/facade.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

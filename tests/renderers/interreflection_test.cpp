@@ -4,11 +4,11 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/input_error.h"
-#include "renderers/diffuse_light.h"
+#include "core/io/input_error.h"
+#include "renderers/light/diffuse_light.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
-#include "scenes/solid_lattice.h"
+#include "scenes/facade/facade.h"
+#include "scenes/mesh/solid_lattice.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

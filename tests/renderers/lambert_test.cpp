@@ -3,10 +3,10 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

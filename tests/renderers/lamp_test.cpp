@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderers/diffuse_light.h"
+#include "renderers/light/diffuse_light.h"
 #include "renderers/ray_caster.h"
 #include "tests/renderers/test_scenes.h"
 

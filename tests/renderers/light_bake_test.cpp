@@ -1,4 +1,4 @@
-#include "renderers/light_bake.h"
+#include "renderers/light/light_bake.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "renderers/ray_caster.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
-#include "scenes/solid_lattice.h"
+#include "scenes/facade/facade.h"
+#include "scenes/mesh/solid_lattice.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

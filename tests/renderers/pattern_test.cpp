@@ -3,9 +3,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/random_stream.h"
-#include "renderers/mip_map.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
+#include "renderers/tracing/mip_map.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

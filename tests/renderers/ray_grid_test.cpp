@@ -1,8 +1,8 @@
-#include "renderers/ray_grid.h"
+#include "renderers/tracing/ray_grid.h"
 
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
-#include "renderers/traced_scene.h"
-#include "scenes/solid_lattice.h"
+#include "renderers/tracing/traced_scene.h"
+#include "scenes/mesh/solid_lattice.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 #include "scenes/lighting.h"
 #include "scenes/scene.h"
 

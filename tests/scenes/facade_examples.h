@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 
 namespace fenestra {
 

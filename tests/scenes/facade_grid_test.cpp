@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/scenes/facade_examples.h"
 #include "tests/scenes/mesh_checks.h"
 

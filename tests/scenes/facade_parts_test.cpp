@@ -7,10 +7,10 @@
 #include <numbers>
 #include <set>
 
-#include "core/input_error.h"
-#include "scenes/facade_check.h"
-#include "scenes/facade_plan.h"
-#include "scenes/facade_shutters.h"
+#include "core/io/input_error.h"
+#include "scenes/facade/facade_check.h"
+#include "scenes/facade/facade_plan.h"
+#include "scenes/facade/facade_shutters.h"
 #include "tests/scenes/facade_examples.h"
 #include "tests/scenes/mesh_checks.h"
 

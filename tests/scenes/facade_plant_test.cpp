@@ -1,10 +1,10 @@
-#include "scenes/facade_plant.h"
+#include "scenes/facade/facade_plant.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 #include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {

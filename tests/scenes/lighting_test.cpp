@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenes/longest_edge_bisection.h"
+#include "scenes/mesh/longest_edge_bisection.h"
 
 #include <gtest/gtest.h>
 

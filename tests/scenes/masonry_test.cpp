@@ -1,4 +1,4 @@
-#include "scenes/masonry.h"
+#include "scenes/facade/masonry.h"
 
 #include <gtest/gtest.h>
 

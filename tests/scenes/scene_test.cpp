@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

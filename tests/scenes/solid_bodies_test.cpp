@@ -1,4 +1,4 @@
-#include "scenes/solid_bodies.h"
+#include "scenes/mesh/solid_bodies.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 #include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {

@@ -1,4 +1,4 @@
-#include "scenes/solid_lattice.h"
+#include "scenes/mesh/solid_lattice.h"
 
 #include <gtest/gtest.h>
 

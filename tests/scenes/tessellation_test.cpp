@@ -1,4 +1,4 @@
-#include "scenes/tessellation.h"
+#include "scenes/mesh/tessellation.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

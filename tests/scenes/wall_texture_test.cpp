@@ -1,4 +1,4 @@
-#include "scenes/wall_texture.h"
+#include "scenes/facade/wall_texture.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/input_error.h"
-#include "scenes/facade.h"
-#include "scenes/wall_pattern.h"
+#include "core/io/input_error.h"
+#include "scenes/facade/facade.h"
+#include "scenes/facade/wall_pattern.h"
 #include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {

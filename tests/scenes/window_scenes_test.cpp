@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/input_error.h"
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
+#include "core/io/input_error.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/scenes/mesh_checks.h"
 
 namespace fenestra {

@@ -1,10 +1,10 @@
-#include "sim/chance_match.h"
+#include "sim/structured_light/chance_match.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/color_camera.h"
+#include "sim/camera/color_camera.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
-#include "scenes/facade.h"
-#include "sim/viewpoint.h"
+#include "scenes/facade/facade.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenes/facade.h"
+#include "scenes/facade/facade.h"
 
 namespace fenestra::testing {
 

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "sim/structured_light_sensor.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra::testing {
 

@@ -1,4 +1,4 @@
-#include "sim/dot_pattern.h"
+#include "sim/structured_light/dot_pattern.h"
 
 #include <gtest/gtest.h>
 

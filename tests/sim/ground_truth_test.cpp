@@ -1,8 +1,8 @@
-#include "sim/ground_truth.h"
+#include "sim/truth/ground_truth.h"
 
 #include <gtest/gtest.h>
 
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

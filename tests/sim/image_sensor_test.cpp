@@ -1,10 +1,10 @@
-#include "sim/image_sensor.h"
+#include "sim/camera/image_sensor.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

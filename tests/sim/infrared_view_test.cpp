@@ -1,12 +1,12 @@
-#include "sim/infrared_view.h"
+#include "sim/structured_light/infrared_view.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/paper_target.h"
-#include "sim/viewpoint.h"
+#include "scenes/targets/paper_target.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

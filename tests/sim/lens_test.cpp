@@ -1,4 +1,4 @@
-#include "sim/lens.h"
+#include "sim/camera/lens.h"
 
 #include <gtest/gtest.h>
 

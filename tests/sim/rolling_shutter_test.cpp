@@ -1,15 +1,15 @@
-#include "sim/rolling_shutter.h"
+#include "sim/motion/rolling_shutter.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/input_error.h"
-#include "scenes/paper_target.h"
-#include "sim/moving_rays.h"
-#include "sim/structured_light_sensor.h"
-#include "sim/viewpoint.h"
+#include "core/io/input_error.h"
+#include "scenes/targets/paper_target.h"
+#include "sim/motion/moving_rays.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

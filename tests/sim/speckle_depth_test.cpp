@@ -7,10 +7,10 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
-#include "sim/structured_light_sensor.h"
-#include "sim/viewpoint.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
+#include "sim/structured_light/structured_light_sensor.h"
+#include "sim/truth/viewpoint.h"
 #include "tests/sim/depth_poses.h"
 
 namespace fenestra {

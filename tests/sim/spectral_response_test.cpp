@@ -1,4 +1,4 @@
-#include "sim/spectral_response.h"
+#include "sim/camera/spectral_response.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
-#include "sim/stereo_rig.h"
+#include "sim/stereo/stereo_rig.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/input_error.h"
-#include "scenes/paper_target.h"
-#include "sim/viewpoint.h"
+#include "core/io/input_error.h"
+#include "scenes/targets/paper_target.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "sim/structured_light_sensor.h"
+#include "sim/structured_light/structured_light_sensor.h"
 
 #include <gtest/gtest.h>
 
@@ -6,9 +6,9 @@
 #include <set>
 #include <vector>
 
-#include "scenes/facade.h"
-#include "scenes/paper_target.h"
-#include "sim/viewpoint.h"
+#include "scenes/facade/facade.h"
+#include "scenes/targets/paper_target.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

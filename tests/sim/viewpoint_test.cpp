@@ -1,8 +1,8 @@
-#include "sim/viewpoint.h"
+#include "sim/truth/viewpoint.h"
 
 #include <gtest/gtest.h>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <regex>
 #include <set>
 
-#include "core/check.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

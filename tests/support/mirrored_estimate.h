@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/detection.h"
+#include "core/detection/detection.h"
 
 namespace fenestra::testing {
 

@@ -2,8 +2,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/camera_model.h"
-#include "core/pose.h"
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra::testing {
 

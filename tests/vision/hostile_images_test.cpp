@@ -6,8 +6,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "core/image_io.h"
-#include "core/input_error.h"
+#include "core/io/image_io.h"
+#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 #include "vision/detector_registry.h"
 

@@ -1,10 +1,10 @@
-#include "vision/window_prior.h"
+#include "core/detection/window_prior.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/calibration_board.h"
+#include "core/geometry/calibration_board.h"
 
 namespace fenestra {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/check.h"
-#include "core/input_error.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

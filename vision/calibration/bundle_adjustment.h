@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/calibration_board.h"
+#include "core/geometry/calibration.h"
+#include "core/geometry/calibration_board.h"
 #include "vision/calibration/board_finder.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 #include <map>
 #include <opencv2/calib3d.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

@@ -16,7 +16,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 extern char** environ;
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "core/detector_failure.h"
-#include "core/input_error.h"
+#include "core/detection/detector_failure.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/private_folder.h"
+#include "core/geometry/calibration.h"
+#include "core/io/private_folder.h"
 #include "vision/external/child_process.h"
 #include "vision/external/detector_protocol.h"
 #include "vision/external/external_command.h"

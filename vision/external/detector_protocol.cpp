@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "core/detector_failure.h"
+#include "core/detection/detector_failure.h"
 
 namespace fenestra {
 namespace {

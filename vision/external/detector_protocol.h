@@ -5,8 +5,8 @@
 #include <string_view>
 #include <variant>
 
-#include "core/detection_json.h"
-#include "core/observation_files.h"
+#include "core/detection/detection_json.h"
+#include "core/detection/observation_files.h"
 #include "vision/external/external_command.h"
 
 namespace fenestra {
@@ -18,7 +18,7 @@ namespace fenestra {
 ///     < {"protocol": 1}                      or {"error": "size_m must be positive"}
 ///     > {"request": "detect", "id": 1, "left": "/dev/shm/…/left.png", "right": …,
 ///        "calibration": "/dev/shm/…/calibration.yaml"}
-///     < {"id": 1, "outcome": "window", "centroid_m": […], …}     (core/detection_json.h)
+///     < {"id": 1, "outcome": "window", "centroid_m": […], …}     (core/detection/detection_json.h)
 ///     < {"id": 1, "outcome": "miss", "reason": "no_contour", "detail": "…"}
 ///     < {"id": 1, "outcome": "error", "detail": "…"}             costs this observation alone
 ///

@@ -5,8 +5,8 @@
 #include <memory>
 #include <ostream>
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "vision/external/detector_protocol.h"
 
 namespace fenestra {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/observation.h"
-#include "core/parameter_table.h"
+#include "core/detection/observation.h"
+#include "core/io/parameter_table.h"
 
 namespace fenestra {
 

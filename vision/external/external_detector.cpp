@@ -1,8 +1,8 @@
 #include "vision/external/external_detector.h"
 
-#include "core/check.h"
-#include "core/detector_failure.h"
-#include "core/input_error.h"
+#include "core/detection/detector_failure.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 

@@ -4,8 +4,8 @@
 #include <mutex>
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/detector.h"
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
 #include "vision/external/detector_program.h"
 
 namespace fenestra {

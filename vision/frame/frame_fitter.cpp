@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/frame/edge_points.h"
-#include "vision/frame/frame_depth.h"
-#include "vision/frame/frame_support.h"
+#include "vision/frame/adjustment/frame_support.h"
+#include "vision/frame/measurement/edge_points.h"
+#include "vision/frame/setback/settle_depth.h"
 
 namespace fenestra {
 namespace {

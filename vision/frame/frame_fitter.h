@@ -7,10 +7,10 @@
 #include <variant>
 #include <vector>
 
-#include "core/detection.h"
-#include "vision/frame/frame_border.h"
-#include "vision/frame/frame_fit.h"
-#include "vision/frame/frame_knowledge.h"
+#include "core/detection/detection.h"
+#include "vision/frame/adjustment/frame_fit.h"
+#include "vision/frame/measurement/frame_border.h"
+#include "vision/frame/model/frame_knowledge.h"
 
 namespace fenestra {
 

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/dark_quadrilateral.h"
-#include "vision/frame/frame_fit.h"
+#include "vision/frame/adjustment/frame_fit.h"
+#include "vision/frame/detection/dark_quadrilateral.h"
 
 namespace fenestra {
 

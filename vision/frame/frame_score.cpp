@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "vision/frame/frame_border.h"
+#include "vision/frame/measurement/frame_border.h"
 
 namespace fenestra {
 namespace {

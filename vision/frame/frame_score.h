@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "core/detection.h"
-#include "vision/frame/darkness.h"
-#include "vision/frame/frame_fit.h"
+#include "core/detection/detection.h"
+#include "vision/frame/adjustment/frame_fit.h"
+#include "vision/frame/detection/darkness.h"
 
 namespace fenestra {
 

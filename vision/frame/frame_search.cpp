@@ -1,6 +1,6 @@
 #include "vision/frame/frame_search.h"
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

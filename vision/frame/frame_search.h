@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/parameter_table.h"
-#include "vision/frame/frame_limits.h"
+#include "core/io/parameter_table.h"
+#include "vision/frame/model/frame_limits.h"
 
 namespace fenestra {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/faults.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/observation.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
 
 namespace fenestra {
 

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "core/camera_model.h"
+#include "core/geometry/camera_model.h"
 
 namespace fenestra {
 

@@ -6,9 +6,9 @@
 #include <opencv2/core/eigen.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/check.h"
-#include "core/faults.h"
-#include "core/input_error.h"
+#include "core/io/faults.h"
+#include "core/io/input_error.h"
+#include "core/system/check.h"
 
 namespace fenestra {
 namespace {

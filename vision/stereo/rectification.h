@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <opencv2/core.hpp>
 
-#include "core/calibration.h"
-#include "core/observation.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
 #include "vision/stereo/rectified_camera.h"
 
 namespace fenestra {

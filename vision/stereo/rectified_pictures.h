@@ -3,7 +3,7 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-#include "core/stage_log.h"
+#include "core/detection/stage_log.h"
 #include "vision/stereo/rectification.h"
 
 namespace fenestra {

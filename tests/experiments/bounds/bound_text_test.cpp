@@ -1,10 +1,10 @@
-#include "experiments/bounds/bound_text.h"
+#include "experiments/check/bound_text.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
-#include "experiments/bounds/bound_file.h"
+#include "core/io/input_error.h"
+#include "experiments/check/bound_file.h"
 
 namespace fenestra {
 namespace {

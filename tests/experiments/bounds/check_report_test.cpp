@@ -1,4 +1,4 @@
-#include "experiments/bounds/check_report.h"
+#include "experiments/check/check_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

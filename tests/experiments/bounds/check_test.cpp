@@ -1,12 +1,12 @@
-#include "experiments/bounds/check.h"
+#include "experiments/check/bound_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/input_error.h"
-#include "experiments/bounds/bound_text.h"
+#include "core/io/input_error.h"
+#include "experiments/check/bound_text.h"
 #include "tests/experiments/bounds/simulated_rows.h"
 #include "tests/experiments/record_examples.h"
 

@@ -1,13 +1,13 @@
-#include "experiments/bounds/clustered_statistics.h"
+#include "experiments/statistics/clustered_statistics.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "core/random_stream.h"
-#include "experiments/bounds/sign_flip_test.h"
-#include "experiments/statistics.h"
+#include "core/random/random_stream.h"
+#include "experiments/statistics/moments.h"
+#include "experiments/statistics/sign_flip.h"
 
 namespace fenestra {
 namespace {

@@ -1,12 +1,12 @@
-#include "experiments/bounds/regression.h"
+#include "experiments/check/regression.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/input_error.h"
-#include "experiments/bounds/bound_text.h"
-#include "experiments/bounds/check.h"
+#include "core/io/input_error.h"
+#include "experiments/check/bound_check.h"
+#include "experiments/check/bound_text.h"
 #include "tests/experiments/bounds/simulated_rows.h"
 
 namespace fenestra {

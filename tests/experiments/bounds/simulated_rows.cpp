@@ -1,6 +1,6 @@
 #include "tests/experiments/bounds/simulated_rows.h"
 
-#include "experiments/study_reader.h"
+#include "experiments/study_file/study_reader.h"
 #include "tests/experiments/record_examples.h"
 
 namespace fenestra::testing {

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "core/random_stream.h"
-#include "experiments/study.h"
-#include "experiments/trial_record.h"
+#include "core/random/random_stream.h"
+#include "experiments/study/study.h"
+#include "experiments/trial/trial_record.h"
 
 namespace fenestra::testing {
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
-#include "core/calibration_io.h"
-#include "core/image_io.h"
+#include "core/geometry/calibration_io.h"
+#include "core/io/image_io.h"
 #include "tests/experiments/cli/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 

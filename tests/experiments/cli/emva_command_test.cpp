@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "core/image_io.h"
+#include "core/io/image_io.h"
 #include "tests/experiments/cli/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 

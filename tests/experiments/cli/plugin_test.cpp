@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/store.h"
+#include "experiments/store/store.h"
 #include "tests/experiments/cli/expect_refused.h"
 #include "tests/support/temporary_folder.h"
 

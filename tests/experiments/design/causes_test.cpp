@@ -1,9 +1,9 @@
-#include "experiments/design/causes.h"
+#include "experiments/sampling/causes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/sampling.h"
+#include "experiments/sampling/trial_sampler.h"
 #include "tests/experiments/study_text.h"
 
 namespace fenestra {

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/design/sampling_design.h"
-#include "experiments/study_writer.h"
+#include "experiments/study/sampling_design.h"
+#include "experiments/study_file/study_writer.h"
 #include "tests/experiments/study_text.h"
 
 namespace fenestra {

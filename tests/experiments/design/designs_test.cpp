@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/design/sobol_points.h"
-#include "experiments/sampling.h"
+#include "experiments/sampling/sobol_points.h"
+#include "experiments/sampling/trial_sampler.h"
 #include "tests/experiments/study_text.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/emva/simulated_series.h"
 
 namespace fenestra::emva {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "experiments/emva/simulated_series.h"
 #include "tests/support/temporary_folder.h"
 

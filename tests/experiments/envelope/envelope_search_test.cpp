@@ -1,4 +1,4 @@
-#include "experiments/envelope/envelope_search.h"
+#include "experiments/analysis/envelope_search.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

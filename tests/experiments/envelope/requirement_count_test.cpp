@@ -1,8 +1,8 @@
-#include "experiments/envelope/requirement_count.h"
+#include "experiments/analysis/requirement_count.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

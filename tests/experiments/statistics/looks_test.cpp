@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
-#include "experiments/statistics.h"
+#include "core/random/random_stream.h"
+#include "experiments/statistics/moments.h"
 
 namespace fenestra {
 namespace {

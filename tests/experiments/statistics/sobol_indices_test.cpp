@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "experiments/design/causes.h"
+#include "experiments/sampling/causes.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/theory/blurred_edge.h"
+#include "experiments/cramer_rao/blurred_edge.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "experiments/theory/border_profile.h"
+#include "experiments/cramer_rao/border_profile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "experiments/theory/calibration_law.h"
+#include "experiments/cramer_rao/calibration_covariance.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "experiments/calibrated_rig.h"
+#include "experiments/trial/calibrated_rig.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "experiments/theory/cramer_rao.h"
+#include "experiments/cramer_rao/cramer_rao.h"
 
 #include <gtest/gtest.h>
 

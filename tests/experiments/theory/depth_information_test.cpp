@@ -1,4 +1,4 @@
-#include "experiments/theory/depth_information.h"
+#include "experiments/cramer_rao/depth_information.h"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "core/pose.h"
-#include "experiments/theory/rgbd_information.h"
-#include "scenes/paper_target.h"
-#include "sim/viewpoint.h"
+#include "core/geometry/pose.h"
+#include "experiments/cramer_rao/rgbd_information.h"
+#include "scenes/targets/paper_target.h"
+#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

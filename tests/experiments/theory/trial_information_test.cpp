@@ -1,14 +1,14 @@
-#include "experiments/theory/trial_information.h"
+#include "experiments/cramer_rao/trial_information.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <boost/math/distributions/chi_squared.hpp>
 
-#include "core/yaml_reader.h"
-#include "experiments/cell_bench.h"
-#include "experiments/study_reader.h"
-#include "experiments/theory/bound_table.h"
+#include "core/io/yaml_reader.h"
+#include "experiments/report/bound_table.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial/cell_bench.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra::testing {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 
 namespace fenestra::testing {
 

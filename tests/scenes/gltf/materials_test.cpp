@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "scenes/gltf/materials.h"
+#include "scenes/gltf/reader/materials.h"
 #include "tests/scenes/gltf/gltf_text.h"
 
 namespace fenestra {

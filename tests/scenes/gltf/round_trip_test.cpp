@@ -3,10 +3,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/input_error.h"
-#include "scenes/facade.h"
-#include "scenes/gltf.h"
-#include "scenes/paper_target.h"
+#include "core/io/input_error.h"
+#include "scenes/facade/facade.h"
+#include "scenes/gltf/gltf.h"
+#include "scenes/targets/paper_target.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

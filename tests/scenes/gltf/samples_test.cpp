@@ -3,7 +3,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scenes/gltf.h"
+#include "scenes/gltf/gltf.h"
 #include "tests/scenes/gltf/gltf_text.h"
 
 // What the Khronos sample models are, by their descriptions, against what is read of them.

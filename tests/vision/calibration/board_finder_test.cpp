@@ -5,8 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/image_io.h"
-#include "sim/board_session.h"
+#include "core/io/image_io.h"
+#include "sim/stereo/board_session.h"
 
 namespace fenestra {
 namespace {

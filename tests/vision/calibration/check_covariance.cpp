@@ -8,7 +8,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cstdlib>
 
-#include "experiments/board_calibration.h"
+#include "experiments/trial/board_calibration.h"
 #include "tests/vision/calibration/normalised_error.h"
 
 int main(int argc, char** argv) {

@@ -5,7 +5,7 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "core/image_io.h"
+#include "core/io/image_io.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {

@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 #include <array>
 
-#include "scenes/board_scene.h"
-#include "sim/stereo_rig.h"
-#include "sim/viewpoint.h"
+#include "scenes/targets/board_scene.h"
+#include "sim/stereo/stereo_rig.h"
+#include "sim/truth/viewpoint.h"
 #include "vision/calibration/board_finder.h"
 
 namespace fenestra {

@@ -6,7 +6,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/calibration/normalised_error.h"
 #include "tests/vision/calibration/synthetic_boards.h"
 

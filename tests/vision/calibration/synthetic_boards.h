@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/calibration.h"
-#include "core/random_stream.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra::testing {

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "core/detector_failure.h"
-#include "core/input_error.h"
+#include "core/detection/detector_failure.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

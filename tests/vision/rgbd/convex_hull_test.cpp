@@ -1,9 +1,9 @@
-#include "vision/rgbd/convex_hull.h"
+#include "vision/rgbd/paper/convex_hull.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

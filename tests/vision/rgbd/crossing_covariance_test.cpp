@@ -1,4 +1,4 @@
-#include "vision/rgbd/crossing_covariance.h"
+#include "vision/rgbd/paper/crossing_covariance.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "vision/rgbd/dark_cloud.h"
+#include "vision/rgbd/paper/dark_cloud.h"
 
 #include <gtest/gtest.h>
 

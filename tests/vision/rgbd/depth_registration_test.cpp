@@ -1,11 +1,11 @@
-#include "vision/rgbd/depth_registration.h"
+#include "vision/rgbd/paper/depth_registration.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "core/input_error.h"
-#include "core/random_stream.h"
+#include "core/io/input_error.h"
+#include "core/random/random_stream.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
 
 namespace fenestra {

@@ -1,10 +1,10 @@
-#include "vision/rgbd/diagonals.h"
+#include "vision/rgbd/paper/diagonals.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/calibration.h"
-#include "core/observation.h"
-#include "core/random_stream.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
 #include "tests/vision/stereo/exact_frame.h"
 
 namespace fenestra::testing {

@@ -1,4 +1,4 @@
-#include "vision/rgbd/opening.h"
+#include "vision/rgbd/paper/opening.h"
 
 #include <gtest/gtest.h>
 

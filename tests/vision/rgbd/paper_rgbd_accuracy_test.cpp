@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tests/vision/rgbd/synthetic_kinect.h"
-#include "vision/rgbd/paper_rgbd.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
 
 namespace fenestra {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
-#include "vision/rgbd/paper_rgbd.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
 
 namespace fenestra {
 namespace {

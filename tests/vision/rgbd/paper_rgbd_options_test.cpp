@@ -1,10 +1,10 @@
-#include "vision/rgbd/paper_rgbd_options.h"
+#include "vision/rgbd/paper/paper_rgbd_options.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {

@@ -5,7 +5,7 @@
 #include "tests/support/mirrored_estimate.h"
 #include "tests/vision/rgbd/exact_kinect.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
-#include "vision/rgbd/plane_rgbd.h"
+#include "vision/rgbd/plane/plane_rgbd.h"
 
 // Mirrored: x -> -x for the world, all pixels and both cameras.
 

@@ -1,4 +1,4 @@
-#include "vision/rgbd/plane_rgbd.h"
+#include "vision/rgbd/plane/plane_rgbd.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/rgbd/exact_kinect.h"
 #include "tests/vision/rgbd/synthetic_kinect.h"
 

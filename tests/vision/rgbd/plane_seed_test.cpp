@@ -1,10 +1,10 @@
-#include "vision/rgbd/plane_seed.h"
+#include "vision/rgbd/plane/plane_seed.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/vision/rgbd/synthetic_kinect.h"
-#include "vision/rgbd/frame_depth.h"
-#include "vision/rgbd/seen_setback.h"
+#include "vision/rgbd/plane/depth_around_frame.h"
+#include "vision/rgbd/plane/hidden_sides.h"
 
 namespace fenestra {
 namespace {

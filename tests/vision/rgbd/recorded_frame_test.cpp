@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/image_io.h"
-#include "vision/rgbd/paper_rgbd.h"
-#include "vision/rgbd/plane_rgbd.h"
+#include "core/io/image_io.h"
+#include "vision/rgbd/paper/paper_rgbd.h"
+#include "vision/rgbd/plane/plane_rgbd.h"
 
 namespace fenestra {
 namespace {

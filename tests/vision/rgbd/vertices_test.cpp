@@ -1,12 +1,12 @@
-#include "vision/rgbd/vertices.h"
+#include "vision/rgbd/paper/vertices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "core/random_stream.h"
-#include "vision/rgbd/convex_hull.h"
+#include "core/random/random_stream.h"
+#include "vision/rgbd/paper/convex_hull.h"
 
 namespace fenestra {
 namespace {

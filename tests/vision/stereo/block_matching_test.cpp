@@ -1,10 +1,10 @@
-#include "vision/stereo/block_matching.h"
+#include "vision/stereo/paper/block_matching.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 #include "tests/vision/stereo/stereo_scene.h"
-#include "vision/stereo/guided_matching.h"
+#include "vision/stereo/paper/guided_matching.h"
 
 namespace fenestra {
 namespace {

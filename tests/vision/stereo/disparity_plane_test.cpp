@@ -1,8 +1,8 @@
-#include "vision/stereo/disparity_plane.h"
+#include "vision/stereo/paper/disparity_plane.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -1,4 +1,4 @@
-#include "vision/frame/edge_segments.h"
+#include "vision/frame/detection/edge_segments.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "tests/vision/stereo/exact_frame.h"
 #include "tests/vision/stereo/stereo_scene.h"
-#include "vision/stereo/edge_stereo.h"
+#include "vision/stereo/edge/edge_stereo.h"
 
 namespace fenestra {
 namespace {

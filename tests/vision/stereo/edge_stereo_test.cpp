@@ -1,4 +1,4 @@
-#include "vision/stereo/edge_stereo.h"
+#include "vision/stereo/edge/edge_stereo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/stereo/exact_bound.h"
 #include "tests/vision/stereo/exact_frame.h"
 #include "tests/vision/stereo/stereo_scene.h"
@@ -148,7 +148,8 @@ struct Trials {
 };
 
 // The picture in one of the lights that the detector allows for: slopes of the wall's grey values
-// are what vignetting makes of them give or take 0.02 % a pixel (vision/frame/edge_tuning.cpp).
+// are what vignetting makes of them give or take 0.02 % a pixel
+// (vision/frame/measurement/edge_tuning.cpp).
 cv::Mat1f InSomeLight(const cv::Mat1f& picture, const CameraView& view, const ExactFrame& frame,
                       const RandomStream& stream) {
   std::array<double, 4> slopes_per_px;

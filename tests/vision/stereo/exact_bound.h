@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/calibration.h"
+#include "core/geometry/calibration.h"
 #include "tests/vision/stereo/exact_frame.h"
 
 namespace fenestra::testing {

@@ -3,9 +3,9 @@
 #include <array>
 #include <opencv2/core.hpp>
 
-#include "core/calibration.h"
-#include "core/observation.h"
-#include "core/random_stream.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra::testing {
 

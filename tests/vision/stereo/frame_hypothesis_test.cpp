@@ -1,4 +1,4 @@
-#include "vision/stereo/frame_hypothesis.h"
+#include "vision/stereo/paper/frame_hypothesis.h"
 
 #include <gtest/gtest.h>
 

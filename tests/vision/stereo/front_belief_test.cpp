@@ -1,4 +1,4 @@
-#include "vision/frame/front_belief.h"
+#include "vision/frame/setback/front_belief.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "vision/stereo/paper_stereo.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/stereo/stereo_scene.h"
 
 namespace fenestra {

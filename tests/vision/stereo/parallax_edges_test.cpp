@@ -1,4 +1,4 @@
-#include "vision/frame/parallax_edges.h"
+#include "vision/frame/setback/parallax_edges.h"
 
 #include <gtest/gtest.h>
 

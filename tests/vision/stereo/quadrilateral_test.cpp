@@ -1,4 +1,4 @@
-#include "vision/frame/quadrilateral.h"
+#include "vision/frame/detection/quadrilateral.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/stereo/closed_contour.h"
+#include "vision/stereo/paper/closed_contour.h"
 
 namespace fenestra {
 namespace {

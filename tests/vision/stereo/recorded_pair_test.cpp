@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/image_io.h"
-#include "vision/stereo/edge_stereo.h"
-#include "vision/stereo/paper_stereo.h"
+#include "core/io/image_io.h"
+#include "vision/stereo/edge/edge_stereo.h"
+#include "vision/stereo/paper/paper_stereo.h"
 
 namespace fenestra {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/input_error.h"
+#include "core/io/input_error.h"
 #include "tests/vision/stereo/stereo_scene.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra::testing {
 namespace {

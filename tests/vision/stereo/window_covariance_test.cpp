@@ -1,8 +1,8 @@
-#include "vision/stereo/window_covariance.h"
+#include "vision/stereo/paper/window_covariance.h"
 
 #include <gtest/gtest.h>
 
-#include "core/random_stream.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

@@ -1,8 +1,8 @@
-#include "vision/stereo/window_rectangle.h"
+#include "vision/stereo/paper/window_rectangle.h"
 
 #include <gtest/gtest.h>
 
-#include "core/pose.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
 namespace {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/detection/detection.h"
+#include "core/detection/stage_log.h"
+
+namespace fenestra {
+
+/// A detection as JSON, metres in the scored camera's frame, all digits of every double:
+///
+///     {"outcome": "window", "centroid_m": [x, y, z],
+///      "corners_m": [[x, y, z], ...],            top left, top right, bottom right, bottom left
+///      "normal": [x, y, z],                      as read: that of the corners, if it is missing
+///      "centroid_covariance_m2": [[...], ...],   optional, 3 x 3
+///      "size_m": [width, height],                not read
+///      "score": s, "others": [{...}, ...],       optional
+///      "stage_seconds": {"match": 0.04, ...}}    optional
+///     {"outcome": "miss", "reason": "no_contour", "detail": "for people", "stage_seconds": {...}}
+nlohmann::ordered_json ToJson(const Detection& detection, const std::vector<StageTime>& stages);
+
+struct TimedDetection {
+  Detection detection;
+  std::vector<StageTime> stages;
+};
+
+/// The inverse. Keys that are not named above are ignored. Throws std::runtime_error, saying what
+/// is wrong, for anything else than the above: a missing key, a wrong shape, a reason that is not
+/// snake_case, a negative time.
+TimedDetection DetectionFromJson(const nlohmann::ordered_json& json);
+
+/// ToJson with the detector's name before it, for people and programs.
+std::string DetectionJson(const std::string& detector, const Detection& detection,
+                          const StageLog& log);
+
+/// The same for people alone.
+std::string DetectionText(const std::string& detector, const Detection& detection,
+                          const StageLog& log);
+
+}  // namespace fenestra

@@ -1,0 +1,118 @@
+#include "core/io/image_io.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <string_view>
+
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+
+namespace fenestra {
+namespace {
+
+constexpr int kLargestSide = 16384;
+constexpr const char* kNotAnImage = "not a readable image (PNG, TIFF, JPEG, PGM)";
+constexpr std::array<unsigned char, 8> kPngSignature = {0x89, 'P',  'N',  'G',
+                                                        '\r', '\n', 0x1a, '\n'};
+
+uint32_t BigEndian(const unsigned char* bytes) {
+  return (uint32_t{bytes[0]} << 24) | (uint32_t{bytes[1]} << 16) | (uint32_t{bytes[2]} << 8) |
+         uint32_t{bytes[3]};
+}
+
+// A PNG header states its size before anything is decompressed: a small file may claim to be a
+// huge image.
+void RefuseHugePng(const std::filesystem::path& file) {
+  std::array<unsigned char, 24> header{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(reinterpret_cast<char*>(header.data()), header.size());
+  if (!stream || !std::equal(kPngSignature.begin(), kPngSignature.end(), header.begin())) return;
+  const uint32_t width = BigEndian(&header[16]);
+  const uint32_t height = BigEndian(&header[20]);
+  if (width > kLargestSide || height > kLargestSide) {
+    throw InputError(file, fmt::format("{} x {} pixels; at most {} a side are read", width, height,
+                                       kLargestSide));
+  }
+}
+
+// OpenCV reads some twenty formats, some of them through libraries that were never meant for files
+// from outside; only these are let through to it.
+bool IsKnownFormat(const std::filesystem::path& file) {
+  std::array<char, 8> bytes{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), bytes.size());
+  const std::string_view start(bytes.data(), static_cast<size_t>(stream.gcount()));
+  constexpr std::array<std::string_view, 8> kStarts = {"\x89PNG\r\n\x1a\n",
+                                                       "\xff\xd8\xff",
+                                                       std::string_view("II*\0", 4),
+                                                       std::string_view("MM\0*", 4),
+                                                       "P2",
+                                                       "P3",
+                                                       "P5",
+                                                       "P6"};
+  return std::any_of(kStarts.begin(), kStarts.end(),
+                     [start](std::string_view known) { return start.starts_with(known); });
+}
+
+cv::Mat Read(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw InputError(file, "no such file");
+  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file, "not a regular file");
+  RefuseHugePng(file);
+  if (!IsKnownFormat(file)) throw InputError(file, kNotAnImage);
+  cv::Mat image;
+  try {
+    image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    image.release();
+  }
+  if (image.empty()) throw InputError(file, kNotAnImage);
+  if (image.cols > kLargestSide || image.rows > kLargestSide) {
+    throw InputError(file, fmt::format("{} x {} pixels; at most {} a side are read", image.cols,
+                                       image.rows, kLargestSide));
+  }
+  return image;
+}
+
+[[noreturn]] void Refuse(const std::filesystem::path& file, const cv::Mat& image,
+                         const std::string& wanted) {
+  throw InputError(file, fmt::format("must be {}, not {} channel(s) of {} bits", wanted,
+                                     image.channels(), 8 * image.elemSize1()));
+}
+
+}  // namespace
+
+cv::Mat1b ReadGrayImage(const std::filesystem::path& file) {
+  const cv::Mat image = Read(file);
+  if (image.type() != CV_8UC1) Refuse(file, image, "an 8-bit grey image");
+  return image;
+}
+
+cv::Mat3b ReadColorImage(const std::filesystem::path& file) {
+  const cv::Mat image = Read(file);
+  if (image.type() == CV_8UC3) return image;
+  if (image.depth() != CV_8U || image.channels() == 2) Refuse(file, image, "an 8-bit colour image");
+  cv::Mat3b color(image.size());
+  const std::array<int, 6> from_to = image.channels() == 1 ? std::array<int, 6>{0, 0, 0, 1, 0, 2}
+                                                           : std::array<int, 6>{0, 0, 1, 1, 2, 2};
+  cv::mixChannels(&image, 1, &color, 1, from_to.data(), 3);
+  return color;
+}
+
+cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
+  const cv::Mat image = Read(file);
+  if (image.type() != CV_16UC1) Refuse(file, image, "a 16-bit single-channel depth image");
+  return image;
+}
+
+void WritePng(const std::filesystem::path& file, const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", image, bytes)) throw InputError(file, "cannot be encoded as PNG");
+  WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace fenestra

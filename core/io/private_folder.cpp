@@ -1,0 +1,64 @@
+#include "core/io/private_folder.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "core/io/input_error.h"
+
+namespace fenestra {
+namespace fs = std::filesystem;
+namespace {
+
+// Followed by the process's number, so that the next process can tell what nobody needs any more.
+constexpr std::string_view kPrefix = "fenestra-";
+
+fs::path Parent() {
+  const char* const memory = "/dev/shm";
+  return access(memory, W_OK | X_OK) == 0 ? fs::path(memory) : fs::temp_directory_path();
+}
+
+bool IsLeftBehind(const fs::path& folder) {
+  const std::string name = folder.filename();
+  if (!name.starts_with(kPrefix)) return false;
+  pid_t pid = 0;
+  const char* const end = name.data() + name.size();
+  const auto [dash, error] = std::from_chars(name.data() + kPrefix.size(), end, pid);
+  if (error != std::errc() || dash == end || *dash != '-' || pid <= 0) return false;
+  struct stat info {};
+  if (lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode)) return false;
+  return info.st_uid == getuid() && kill(pid, 0) != 0 && errno == ESRCH;
+}
+
+void RemoveWhatWasLeft(const fs::path& parent) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(parent, error)) {
+    if (IsLeftBehind(entry.path())) fs::remove_all(entry.path(), error);
+  }
+}
+
+}  // namespace
+
+PrivateFolder::PrivateFolder() {
+  const fs::path parent = Parent();
+  RemoveWhatWasLeft(parent);
+  std::string pattern = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw InputError(parent, fmt::format("no folder can be made there: {}", strerror(errno)));
+  }
+  path_ = pattern;
+}
+
+PrivateFolder::~PrivateFolder() {
+  std::error_code error;
+  fs::remove_all(path_, error);
+}
+
+}  // namespace fenestra

@@ -1,0 +1,231 @@
+#include "experiments/check/bound_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "core/io/input_error.h"
+#include "experiments/analysis/row_selection.h"
+#include "experiments/check/estimation.h"
+#include "experiments/check/regression.h"
+#include "experiments/output/number_format.h"
+
+namespace fenestra {
+namespace {
+
+// A regression "holds" where errors have grown by less than a tenth and hits have fallen by less
+// than five points: what a study of some hundred trials can show.
+constexpr double kToleratedRatio = 1.1;
+constexpr double kToleratedLoss = 0.05;
+constexpr double kRegressionConfidence = 0.95;
+constexpr double kMostReplicates = 1e7;
+
+/// A bound and the rows that it is held against.
+struct Task {
+  Bound bound;
+  std::string cell;
+  std::vector<SelectedRow> rows;
+};
+
+bool Holds(const Estimation& e, double confidence, double growth) {
+  return e.is_upper ? e.upper(confidence, growth) <= e.limit
+                    : e.lower(confidence, growth) >= e.limit;
+}
+
+bool Violated(const Estimation& e, double level, double growth) {
+  return e.is_upper ? e.lower(1.0 - level, growth) > e.limit
+                    : e.upper(1.0 - level, growth) < e.limit;
+}
+
+// The least growth of the number of replicates that decides, by doubling and bisection.
+std::optional<long> ReplicatesToDecide(const Estimation& e, double confidence, double level) {
+  const auto decided = [&](double growth) {
+    return Holds(e, confidence, growth) || Violated(e, level, growth);
+  };
+  const double most = kMostReplicates / std::max(1, e.clusters);
+  double high = 2.0;
+  while (high <= most && !decided(high)) high *= 2.0;
+  if (high > most) return std::nullopt;
+  double low = 0.5 * high;
+  for (int i = 0; i < 30 && (high - low) * e.clusters > 0.5; ++i) {
+    const double middle = 0.5 * (low + high);
+    (decided(middle) ? high : low) = middle;
+  }
+  return static_cast<long>(std::ceil(high * e.clusters));
+}
+
+BoundResult Judge(const Task& task, double level) {
+  BoundResult result{.text = task.bound.text,
+                     .line = task.bound.line,
+                     .cell = task.cell,
+                     .measured = kAbsent,
+                     .confidence = task.bound.confidence};
+  const auto estimation = Estimate(task.bound, task.rows);
+  if (!estimation) {
+    result.note = "no row counts for this figure";
+    return result;
+  }
+  result.measured = estimation->shown;
+  result.rows = estimation->rows;
+  result.clusters = estimation->clusters;
+  if (Holds(*estimation, task.bound.confidence, 1.0)) {
+    result.verdict = Verdict::kHolds;
+  } else if (Violated(*estimation, level, 1.0)) {
+    result.verdict = Verdict::kViolated;
+  } else {
+    result.replicates_to_decide = ReplicatesToDecide(*estimation, task.bound.confidence, level);
+  }
+  return result;
+}
+
+BoundResult RegressionResult(const std::string& text, const PairedTests& tests, double p,
+                             double level, const Bound& bound, std::span<const SelectedRow> rows) {
+  BoundResult result{.text = text,
+                     .rows = tests.pairs,
+                     .clusters = tests.clusters,
+                     .confidence = kRegressionConfidence};
+  const auto estimation = Estimate(bound, rows);
+  result.measured = estimation ? estimation->shown : kAbsent;
+  result.note = tests.changed == 0 ? "the same in every trial"
+                                   : fmt::format("p = {:.2g}, {} of {} trials changed", p,
+                                                 tests.changed, tests.pairs);
+  if (p <= level) {
+    result.verdict = Verdict::kViolated;
+  } else if (tests.pairs > 0 && tests.changed == 0) {
+    result.verdict = Verdict::kHolds;
+  } else if (estimation && Holds(*estimation, kRegressionConfidence, 1.0)) {
+    result.verdict = Verdict::kHolds;
+  } else if (estimation) {
+    result.replicates_to_decide = ReplicatesToDecide(*estimation, kRegressionConfidence, level);
+  }
+  return result;
+}
+
+void AddRegressions(const std::map<std::string, std::vector<SelectedRow>>& by_detector,
+                    double level, CheckResult& result) {
+  for (const auto& [detector, rows] : by_detector) {
+    const PairedTests tests = ComparePairs(rows);
+    Bound errors{.is_upper = true, .limit = kToleratedRatio, .to_baseline = true};
+    errors.figure.kind = Figure::Kind::kRmse;
+    Bound hits{.is_upper = false, .limit = -kToleratedLoss, .to_baseline = true};
+    hits.figure.kind = Figure::Kind::kRate;
+    result.bounds.push_back(
+        RegressionResult(fmt::format("errors no larger than in the baseline: {}", detector), tests,
+                         tests.p_errors_grew, level, errors, rows));
+    result.bounds.push_back(
+        RegressionResult(fmt::format("hits no fewer than in the baseline: {}", detector), tests,
+                         tests.p_hits_lost, level, hits, rows));
+  }
+}
+
+std::string CellText(const TrialRecord& row) {
+  return fmt::format("cell {} ({}{}{})", row.cell, row.part, row.levels.empty() ? "" : ", ",
+                     LevelsText(row.levels, " = "));
+}
+
+std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
+                          std::span<const SelectedRow> rows) {
+  std::map<int, Task> cells;
+  for (const SelectedRow& row : rows) {
+    if (!selection.Matches(*row.row, bound.where)) continue;
+    Task& task = cells[bound.in_each_cell ? row.row->cell : 0];
+    task.rows.push_back(row);
+    if (bound.in_each_cell) task.cell = CellText(*row.row);
+  }
+  std::vector<Task> tasks;
+  for (auto& [cell, task] : cells) {
+    task.bound = bound;
+    tasks.push_back(std::move(task));
+  }
+  return tasks;
+}
+
+void CheckConditions(const std::string& source, std::span<const Bound> bounds,
+                     const RowSelection& selection) {
+  std::vector<InputFault> faults;
+  for (const Bound& bound : bounds) {
+    for (const std::string& message : selection.Objections(bound.where)) {
+      faults.push_back({.source = source, .line = bound.line, .message = message});
+    }
+  }
+  if (!faults.empty()) throw InputError(faults);
+}
+
+std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& selection,
+                              std::span<const TrialRecord> rows,
+                              std::span<const TrialRecord> baseline) {
+  std::map<std::tuple<int, int, std::string>, const TrialRecord*> before;
+  for (const TrialRecord& row : baseline) before[{row.cell, row.trial, row.detector}] = &row;
+  std::vector<SelectedRow> selected;
+  for (const TrialRecord& row : rows) {
+    SelectedRow pair{&row, selection.Cluster(row), nullptr};
+    if (!baseline.empty()) {
+      const auto found = before.find({row.cell, row.trial, row.detector});
+      if (found == before.end() || found->second->levels != row.levels ||
+          found->second->part != row.part || found->second->drawn != row.drawn) {
+        throw InputError(source,
+                         fmt::format("has no trial {}/{} of {} under the same conditions: it is "
+                                     "not of the same study, seed and number of trials",
+                                     row.cell, row.trial, row.detector));
+      }
+      pair.baseline = found->second;
+    }
+    selected.push_back(pair);
+  }
+  return selected;
+}
+
+}  // namespace
+
+const char* ToString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kHolds:
+      return "holds";
+    case Verdict::kViolated:
+      return "VIOLATED";
+    case Verdict::kUndecided:
+      return "undecided";
+  }
+  return "";
+}
+
+int CheckResult::Count(Verdict verdict) const {
+  return static_cast<int>(std::count_if(bounds.begin(), bounds.end(),
+                                        [verdict](const auto& b) { return b.verdict == verdict; }));
+}
+
+CheckResult CheckBounds(const std::string& source, const BoundFile& file, const Study& study,
+                        std::span<const TrialRecord> rows, std::span<const TrialRecord> baseline) {
+  const RowSelection selection(study);
+  CheckConditions(source, file.bounds, selection);
+  const std::vector<SelectedRow> selected = Pair("--baseline", selection, rows, baseline);
+  std::vector<InputFault> faults;
+  std::vector<Task> tasks;
+  for (const Bound& bound : file.bounds) {
+    const std::vector<Task> own = TasksOf(bound, selection, selected);
+    const auto note = [&](const char* message) {
+      faults.push_back({.source = source, .line = bound.line, .message = message});
+    };
+    if (own.empty()) note("this bound matches no trial of the results");
+    if (bound.to_baseline && baseline.empty()) note("this bound needs --baseline");
+    tasks.insert(tasks.end(), own.begin(), own.end());
+  }
+  if (!faults.empty()) throw InputError(faults);
+
+  std::map<std::string, std::vector<SelectedRow>> by_detector;
+  if (!baseline.empty()) {
+    for (const SelectedRow& row : selected) by_detector[row.row->detector].push_back(row);
+  }
+  const double tests = static_cast<double>(tasks.size() + 2 * by_detector.size());
+  CheckResult result{
+      .bounds = {}, .false_alarm = file.false_alarm, .test_level = file.false_alarm / tests};
+  for (const Task& task : tasks) result.bounds.push_back(Judge(task, result.test_level));
+  AddRegressions(by_detector, result.test_level, result);
+  return result;
+}
+
+}  // namespace fenestra

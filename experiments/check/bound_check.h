@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/check/bound_file.h"
+#include "experiments/study/study.h"
+#include "experiments/trial/trial_record.h"
+
+namespace fenestra {
+
+enum class Verdict { kHolds, kViolated, kUndecided };
+
+/// "holds", "VIOLATED", "undecided".
+const char* ToString(Verdict verdict);
+
+/// One bound held against the rows, or the same in one cell.
+struct BoundResult {
+  std::string text{};  ///< The bound as written.
+  int line = 0;        ///< In its file; 0 if it stands in none.
+  std::string cell{};  ///< "distance_m = 3" of a bound in each cell; else empty.
+  Verdict verdict = Verdict::kUndecided;
+  std::string measured{};   ///< The figure with its unit; "—" where there is none.
+  int rows = 0;             ///< That count for the figure.
+  int clusters = 0;         ///< Of them independent: see RowSelection::Cluster.
+  double confidence = 0.0;  ///< Of "holds".
+  /// Replicates that would decide if the rows went on as they are; nullopt if decided, or if no
+  /// number below 10^7 would.
+  std::optional<long> replicates_to_decide{};
+  std::string note{};
+};
+
+struct CheckResult {
+  std::vector<BoundResult> bounds;
+  double false_alarm = 0.05;
+  /// Level of each test for a violation: false_alarm over the number of results (Bonferroni), so
+  /// that P(any "violated" | all hold) ≤ false_alarm.
+  double test_level = 0.05;
+
+  int Count(Verdict verdict) const;
+};
+
+/// How rows are held against bounds:
+///
+///   holds       the limited figure's one-sided confidence limit, at the bound's confidence, is
+///               within the limit
+///   violated    its opposite confidence limit, at confidence 1 - test_level, is beyond
+///   undecided   neither
+///
+/// With a baseline, rows are compared trial by trial, and two tests more are made for each
+/// detector: whether errors have grown (see RegressionChecks). Throws InputError where a bound
+/// matches no row, or where the baseline has no such trial.
+CheckResult CheckBounds(const std::string& source, const BoundFile& file, const Study& study,
+                        std::span<const TrialRecord> rows, std::span<const TrialRecord> baseline);
+
+}  // namespace fenestra

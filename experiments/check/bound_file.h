@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/io/yaml_reader.h"
+#include "experiments/check/bound.h"
+
+namespace fenestra {
+
+/// A file of bounds:
+///
+///     study: paper              # a study's name or file, run where no results are given
+///     false_alarm: 0.05         # P(any bound is called violated, though all hold); the default
+///     confidence: 0.95          # of bounds that name none; the default
+///     bounds:
+///       - p95(centroid_error_mm) <= 15 where detector = edge-stereo and distance_m <= 3
+///       - rate(hit) >= 0.98 in each cell where detector = edge-stereo
+struct BoundFile {
+  std::string study;  ///< Empty if it names none.
+  double false_alarm = 0.05;
+  std::vector<Bound> bounds;
+};
+
+/// Throws InputError with all faults and their positions.
+BoundFile ReadBoundFile(YamlReader reader);
+
+}  // namespace fenestra

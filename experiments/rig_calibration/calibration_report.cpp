@@ -1,0 +1,214 @@
+#include "experiments/rig_calibration/calibration_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
+
+#include "core/geometry/calibration_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
+#include "experiments/output/csv_writer.h"
+#include "experiments/output/number_format.h"
+#include "experiments/output/text_table.h"
+
+namespace fenestra {
+namespace {
+
+std::string Text(const TextTable& table, ReportFormat format) {
+  return format == ReportFormat::kMarkdown ? table.ToMarkdown() : table.ToPlainText();
+}
+
+std::string Heading(const std::string& text, ReportFormat format) {
+  return format == ReportFormat::kMarkdown ? "\n## " + text + "\n\n" : "\n" + text + "\n";
+}
+
+// Distortions have deviations far below 0.001.
+std::string WithDeviation(double value, double deviation) {
+  if (!(deviation > 0.0)) return fmt::format("{:g} (fixed)", value);
+  return WithStandardError(value, deviation, 9);
+}
+
+PairVector ValuesOf(const StereoCalibration& calibration) {
+  // Read from an identity rotation, the error's rotation part is the rotation vector itself.
+  const StereoCalibration zero{
+      .left = calibration.left, .right = calibration.right, .X_RL = Pose()};
+  PairVector values = PairError(zero, calibration);
+  values.head<kCameraParameters>() = calibration.left.ParameterVector();
+  values.segment<kCameraParameters>(kCameraParameters) = calibration.right.ParameterVector();
+  return values;
+}
+
+TextTable CameraTable(const StereoCalibrationResult& result) {
+  TextTable table;
+  table.AddColumn("parameter", TextTable::Align::kLeft);
+  table.AddColumn("left");
+  table.AddColumn("right");
+  const PairVector values = ValuesOf(result.calibration);
+  for (int i = 0; i < kCameraParameters; ++i) {
+    const auto shown = [&](int place) {
+      return WithDeviation(values[place], std::sqrt(result.covariance(place, place)));
+    };
+    const std::string name = PairParameterNames()[static_cast<size_t>(i)];
+    table.AddRow({name.substr(name.find(' ') + 1), shown(i), shown(kCameraParameters + i)});
+  }
+  return table;
+}
+
+TextTable PoseTable(const StereoCalibrationResult& result) {
+  TextTable table;
+  table.AddColumn("left to right camera", TextTable::Align::kLeft);
+  table.AddColumn("rotation [mrad]");
+  table.AddColumn("translation [mm]");
+  const PairVector values = ValuesOf(result.calibration);
+  const std::array<const char*, 3> axes = {"x (right)", "y (down)", "z (forward)"};
+  for (int i = 0; i < 3; ++i) {
+    const auto shown = [&](int place) {
+      return WithDeviation(1e3 * values[place], 1e3 * std::sqrt(result.covariance(place, place)));
+    };
+    table.AddRow({axes[static_cast<size_t>(i)], shown(2 * kCameraParameters + i),
+                  shown(2 * kCameraParameters + 3 + i)});
+  }
+  return table;
+}
+
+TextTable ViewTable(const StereoCalibrationResult& result) {
+  TextTable table;
+  table.AddColumn("view", TextTable::Align::kLeft);
+  table.AddColumn("left RMS [px]");
+  table.AddColumn("right RMS [px]");
+  for (const ViewResiduals& view : result.views) {
+    table.AddRow({view.name, fmt::format("{:.3f}", view.left_rms_px),
+                  fmt::format("{:.3f}", view.right_rms_px)});
+  }
+  return table;
+}
+
+// The pairs of parameters that the views tell apart worst.
+TextTable CorrelationTable(const StereoCalibrationResult& result) {
+  struct Entry {
+    int a;
+    int b;
+    double correlation;
+  };
+  std::vector<Entry> entries;
+  for (int a = 0; a < kPairParameters; ++a) {
+    for (int b = a + 1; b < kPairParameters; ++b) {
+      const double scale = std::sqrt(result.covariance(a, a) * result.covariance(b, b));
+      if (scale > 0.0) entries.push_back({a, b, result.covariance(a, b) / scale});
+    }
+  }
+  std::stable_sort(entries.begin(), entries.end(), [](const Entry& x, const Entry& y) {
+    return std::abs(x.correlation) > std::abs(y.correlation);
+  });
+  TextTable table;
+  table.AddColumn("parameters", TextTable::Align::kLeft);
+  table.AddColumn("", TextTable::Align::kLeft);
+  table.AddColumn("correlation");
+  constexpr size_t kShown = 6;
+  for (size_t i = 0; i < std::min(kShown, entries.size()); ++i) {
+    table.AddRow({PairParameterNames()[static_cast<size_t>(entries[i].a)],
+                  PairParameterNames()[static_cast<size_t>(entries[i].b)],
+                  fmt::format("{:+.3f}", entries[i].correlation)});
+  }
+  return table;
+}
+
+std::string BoardText(const CalibrationBoard& board) {
+  const std::string kind = board.kind == BoardKind::kCharuco
+                               ? fmt::format("ChArUco, markers of {:g} mm", 1e3 * board.marker_m)
+                               : "chessboard";
+  return fmt::format("{} x {} inner corners, squares of {:g} mm, {}", board.corner_columns(),
+                     board.corner_rows(), 1e3 * board.square_m, kind);
+}
+
+// The rotations to parallel rows and the projections after them, which stereo matching needs.
+std::array<RosRectification, 2> RectificationOf(const StereoCalibration& calibration) {
+  const auto matrix = [](const CameraModel& camera) {
+    cv::Mat K;
+    cv::eigen2cv(camera.Matrix(), K);
+    return K;
+  };
+  const auto distortion = [](const CameraModel& camera) {
+    const BrownConrady& d = camera.parameters().distortion;
+    return cv::Vec<double, 5>(d.k1, d.k2, d.p1, d.p2, d.k3);
+  };
+  cv::Mat R;
+  cv::Mat T;
+  cv::eigen2cv(calibration.X_RL.rotation(), R);
+  cv::eigen2cv(calibration.X_RL.translation(), T);
+  std::array<cv::Mat, 2> rotation;
+  std::array<cv::Mat, 2> projection;
+  cv::Mat Q;
+  cv::stereoRectify(matrix(calibration.left), distortion(calibration.left),
+                    matrix(calibration.right), distortion(calibration.right),
+                    {calibration.left.width_px(), calibration.left.height_px()}, R, T, rotation[0],
+                    rotation[1], projection[0], projection[1], Q, cv::CALIB_ZERO_DISPARITY, 0.0);
+  std::array<RosRectification, 2> result;
+  for (size_t i = 0; i < 2; ++i) {
+    cv::cv2eigen(rotation[i], result[i].rotation);
+    cv::cv2eigen(projection[i], result[i].projection);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string CalibrationReport(const StereoCalibrationResult& result, const CalibrationBoard& board,
+                              ReportFormat format) {
+  std::string text = format == ReportFormat::kMarkdown ? "# Stereo calibration\n\n" : "";
+  text += fmt::format("{} views of a board of {}\n", result.views.size(), BoardText(board));
+  text += fmt::format(
+      "RMS {:.3f} px (left {:.3f}, right {:.3f}); a corner's coordinate is uncertain by {:.3f} "
+      "px\n",
+      result.rms_px, result.camera_rms_px[0], result.camera_rms_px[1], result.corner_deviation_px);
+  text += fmt::format("baseline {:.2f} mm\n", 1e3 * result.calibration.X_RL.translation().norm());
+  text += Heading("Cameras (± one standard deviation)", format) + Text(CameraTable(result), format);
+  text += Heading("Between the cameras", format) + Text(PoseTable(result), format);
+  text += Heading("Views", format) + Text(ViewTable(result), format);
+  if (!result.left_out.empty()) {
+    text += Heading("Left out", format);
+    const char* bullet = format == ReportFormat::kMarkdown ? "* " : "";
+    for (const LeftOutView& view : result.left_out) {
+      text += fmt::format("{}{}: {}\n", bullet, view.name, view.reason);
+    }
+  }
+  if (format == ReportFormat::kMarkdown) {
+    text += Heading("What the views tell apart worst", format);
+    text += Text(CorrelationTable(result), format);
+    text += "\nAll covariances: covariance.csv. Residuals: residuals.png.\n";
+  }
+  return text;
+}
+
+std::string CovarianceCsv(const StereoCalibrationResult& result) {
+  CsvWriter csv;
+  csv.Add("parameter");
+  for (const std::string& name : PairParameterNames()) csv.Add(name);
+  csv.EndLine();
+  for (int row = 0; row < kPairParameters; ++row) {
+    csv.Add(PairParameterNames()[static_cast<size_t>(row)]);
+    for (int column = 0; column < kPairParameters; ++column)
+      csv.Add(result.covariance(row, column));
+    csv.EndLine();
+  }
+  return csv.text();
+}
+
+void WriteCalibration(const std::filesystem::path& folder, const StereoCalibrationResult& result,
+                      const CalibrationBoard& board) {
+  const std::array<RosRectification, 2> rectification = RectificationOf(result.calibration);
+  WriteFileAtomically(folder / "stereo.yaml", ToOpenCvYaml(result.calibration));
+  WriteFileAtomically(folder / "left.yaml",
+                      ToRosCameraInfo(result.calibration.left, "left", rectification[0]));
+  WriteFileAtomically(folder / "right.yaml",
+                      ToRosCameraInfo(result.calibration.right, "right", rectification[1]));
+  WriteFileAtomically(folder / "report.md",
+                      CalibrationReport(result, board, ReportFormat::kMarkdown));
+  WriteFileAtomically(folder / "covariance.csv", CovarianceCsv(result));
+  WritePng(folder / "residuals.png", ResidualPicture(result));
+}
+
+}  // namespace fenestra

@@ -1,0 +1,149 @@
+#include "experiments/run/result_files.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <ostream>
+
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "experiments/analysis/cell_tally.h"
+#include "experiments/report/provenance.h"
+#include "experiments/report/report.h"
+#include "experiments/report/row_reports.h"
+#include "experiments/run/run_trials.h"
+#include "experiments/study_file/study_reader.h"
+#include "experiments/trial_files/trial_files.h"
+#include "vision/detector_registry.h"
+
+namespace fenestra {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kTextFiles[] = {"study.yaml", "trials.csv", "summary.csv", "summary.md",
+                                      "intervals.csv"};
+
+std::string Get(const StoreMetadata& metadata, const std::string& key) {
+  const auto found = metadata.find(key);
+  return found == metadata.end() ? "" : found->second;
+}
+
+ReportTitle TitleOf(const ResultStore& store, const Study& study) {
+  const StoreMetadata metadata = store.Metadata();
+  ReportTitle title{.study = study.name,
+                    .description = Get(metadata, "description"),
+                    .provenance = {{"Fenestra", Get(metadata, "version")},
+                                   {"Seed", std::to_string(study.seed)},
+                                   {"Libraries", Get(metadata, "libraries")}}};
+  if (const std::vector<RunEntry> runs = store.Runs(); !runs.empty()) {
+    title.provenance.emplace_back("Processor", runs.back().processor);
+    title.provenance.emplace_back("Jobs", std::to_string(runs.back().jobs));
+  }
+  const auto priors = PriorEntries(study);
+  title.provenance.insert(title.provenance.end(), priors.begin(), priors.end());
+  return title;
+}
+
+// Sums up rows, of which those of a cell must agree about what it is.
+class CheckedSummariser {
+ public:
+  explicit CheckedSummariser(const fs::path& file) : file_(file) {}
+
+  void Add(const TrialRecord& row) {
+    if (!first_ || row.cell != first_->cell) first_ = row;
+    if (row.part != first_->part || row.levels != first_->levels) {
+      throw InputError(file_, fmt::format("the rows of cell {} are not of one cell", row.cell));
+    }
+    summariser_.Add(row);
+  }
+  std::vector<CellSummary> Finish() { return summariser_.Finish(); }
+
+ private:
+  fs::path file_;
+  std::optional<TrialRecord> first_;  // Of its cell.
+  Summariser summariser_;
+};
+
+}  // namespace
+
+fs::path StoreFile(const fs::path& results) {
+  return fs::is_directory(results) ? results / ResultStore::kFileName : results;
+}
+
+Study StudyOf(const ResultStore& store, const fs::path& file) {
+  if (!store.Metadata().contains("study")) {
+    throw InputError(file, "holds no study: a recorded sequence is scored again");
+  }
+  return ReadStudy(YamlReader::FromText(Get(store.Metadata(), "study"), file.string() + " (study)"),
+                   Detectors());
+}
+
+void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const fs::path& file) {
+  const auto cell = static_cast<size_t>(row.cell);
+  if (cell < cells.size() && row.trial < cells[cell].repetitions) return;
+  throw InputError(file, fmt::format("has a row of trial {} of cell {}, which its study has not",
+                                     row.trial, row.cell));
+}
+
+std::vector<CellSummary> Summarise(const ResultStore& store) {
+  CheckedSummariser summariser(ResultStore::kFileName);
+  store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
+  return summariser.Finish();
+}
+
+std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
+                                          std::span<const Cell> cells, const fs::path& folder) {
+  const fs::path file = folder / ResultStore::kFileName;
+  CheckedSummariser summariser(file);
+  store.ForEachRow([&](const TrialRecord& row) {
+    RequireTrialOf(cells, row, file);
+    summariser.Add(row);
+  });
+  std::vector<CellSummary> summaries = summariser.Finish();
+  WriteFileAtomically(folder / "study.yaml", Get(store.Metadata(), "study"));
+  WriteFileAtomically(folder / "trials.csv", [&store](std::ostream& out) {
+    WriteTrialsCsv([&store](const auto& visit) { store.ForEachRow(visit); }, out);
+  });
+  WriteFileAtomically(folder / "summary.csv", SummaryCsv(summaries));
+  RowReports reports(study, cells);
+  store.ForEachRow([&reports](const TrialRecord& row) { reports.Add(row); });
+  WriteFileAtomically(folder / "summary.md",
+                      SummaryMarkdown(TitleOf(store, study), summaries) + reports.Markdown());
+  WriteRowReports(reports, study, folder);
+  return summaries;
+}
+
+bool HasResultFiles(const fs::path& folder) {
+  for (const char* name : kTextFiles) {
+    if (!fs::exists(folder / name)) return false;
+  }
+  return true;
+}
+
+void RemoveResultFiles(const fs::path& folder) {
+  for (const char* name : kTextFiles) fs::remove(folder / name);
+  for (const std::string& name : kRowReportFiles) fs::remove(folder / name);
+  fs::remove_all(folder / "pictures");
+}
+
+fs::path PictureFolder(const fs::path& folder, const Cell& cell) {
+  return folder / "pictures" /
+         fmt::format("cell_{:03}_{}_{}", cell.index, cell.part, ToString(cell.sensor));
+}
+
+void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
+                         const fs::path& folder, int jobs,
+                         std::shared_ptr<DetectorMaker> detectors) {
+  std::vector<TrialKey> first;
+  for (const TrialKey key : store.FinishedTrials()) {
+    if (key.trial == 0) first.push_back(key);
+  }
+  const RunOptions options{.jobs = jobs,
+                           .keep_artifacts = [](TrialKey) { return true; },
+                           .detectors = std::move(detectors)};
+  RunTrials(study, cells, first, options, [&](const FinishedTrial& trial) {
+    WritePictures(PictureFolder(folder, trial.bench.cell()), trial);
+  });
+}
+
+}  // namespace fenestra

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/store/store.h"
+#include "experiments/study/study.h"
+
+namespace fenestra {
+
+/// Everything that the bits of a study's rows depend on. All rows of one store, and of the shards
+/// that are merged into one, share it.
+struct RunIdentity {
+  std::string study;  ///< Resolved, as YAML; the seed is in it.
+  std::string version;
+  std::string build;
+  std::string libraries;
+  std::string instruction_set;
+  std::string plugins;  ///< Shared libraries with detectors: "libmine.so 5f3a…, …".
+};
+
+/// The identity of a study's rows when this program runs it on this machine.
+RunIdentity IdentityOf(const Study& study);
+
+/// Writes an identity into a store's metadata, and reads it; an entry that is missing is empty.
+void AddTo(StoreMetadata& metadata, const RunIdentity& identity);
+RunIdentity IdentityFrom(const StoreMetadata& metadata);
+
+/// The differences, one line each: "version: 0.1.0 there, 0.2.0 here"; for the study, the lines
+/// that differ. Empty if nothing differs.
+std::vector<std::string> Differences(const RunIdentity& there, const RunIdentity& here);
+
+}  // namespace fenestra

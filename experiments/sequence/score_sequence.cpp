@@ -1,0 +1,140 @@
+#include "experiments/sequence/score_sequence.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <optional>
+
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
+#include "experiments/analysis/cell_tally.h"
+#include "experiments/report/report.h"
+#include "experiments/run/library_versions.h"
+#include "experiments/store/store.h"
+#include "experiments/trial/scoring.h"
+
+namespace fenestra {
+namespace {
+
+/// One detector, built again where the calibration changes.
+class SequenceDetector {
+ public:
+  SequenceDetector(DetectorChoice choice, std::shared_ptr<DetectorMaker> maker)
+      : choice_(std::move(choice)), maker_(std::move(maker)) {}
+
+  TrialRecord Try(const SequenceFrame& frame, const RecordedObservation& recorded) {
+    StageLog log(SteadyClock());
+    const auto outcome = DetectionOrCrash([&] {
+      if (!detector_ || !(calibration_ == recorded.calibration)) {
+        detector_ = maker_->Make(choice_, recorded.calibration);
+        calibration_ = recorded.calibration;
+      }
+      return detector_->Detect(recorded.observation, log);
+    });
+    log.End();
+    return RecordOf(frame, choice_.label, outcome, log.times());
+  }
+
+  static TrialRecord RecordOf(const SequenceFrame& frame, const std::string& label,
+                              const std::variant<Detection, Crash>& outcome,
+                              const std::vector<StageTime>& stages) {
+    return {.cell = frame.cell,
+            .trial = frame.trial,
+            .part = frame.part,
+            .sensor = frame.files.sensor,
+            .detector = label,
+            .levels = frame.levels,
+            .drawn = frame.drawn,
+            .score = ScoreDetection(outcome, frame.truth),
+            .stages = stages};
+  }
+
+ private:
+  DetectorChoice choice_;
+  std::shared_ptr<DetectorMaker> maker_;
+  std::unique_ptr<Detector> detector_;
+  std::optional<SensorCalibration> calibration_;
+};
+
+std::vector<std::vector<TrialRecord>> TryAll(const SequenceRun& run) {
+  std::vector<SequenceDetector> detectors;
+  for (const DetectorChoice& choice : run.sequence.detectors) {
+    run.detectors->Start(choice);
+    detectors.emplace_back(choice, run.detectors);
+  }
+  std::vector<std::vector<TrialRecord>> trials;
+  for (size_t i = 0; i < run.sequence.frames.size(); ++i) {
+    const SequenceFrame& frame = run.sequence.frames[i];
+    const RecordedObservation recorded = ReadObservation(frame.files);
+    std::vector<TrialRecord>& rows = trials.emplace_back();
+    for (SequenceDetector& detector : detectors) rows.push_back(detector.Try(frame, recorded));
+    for (const MadeDetections& made : run.made) {
+      const TimedDetection& said = made.detections.at(i);
+      rows.push_back(SequenceDetector::RecordOf(frame, made.label, said.detection, said.stages));
+    }
+  }
+  return trials;
+}
+
+StoreMetadata MetadataOf(const SequenceRun& run) {
+  return {{"sequence", run.sequence.text},
+          {"name", run.sequence.name},
+          {"version", Version()},
+          {"libraries", LibraryVersions()},
+          {"processor", Processor()}};
+}
+
+void WriteReports(const SequenceRun& run, const std::vector<TrialRecord>& records,
+                  const std::vector<CellSummary>& summaries) {
+  const ReportTitle title{
+      .study = run.sequence.name,
+      .description = run.sequence.description,
+      .provenance = {{"Frames", fmt::format("{}, recorded", run.sequence.frames.size())},
+                     {"Fenestra", Version()},
+                     {"Libraries", LibraryVersions()},
+                     {"Processor", Processor()}}};
+  WriteFileAtomically(run.out / "trials.csv", TrialsCsv(records));
+  WriteFileAtomically(run.out / "summary.csv", SummaryCsv(summaries));
+  WriteFileAtomically(run.out / "summary.md", SummaryMarkdown(title, summaries));
+}
+
+}  // namespace
+
+MadeDetections ReadDetections(const std::string& label, const std::filesystem::path& file,
+                              size_t frames) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(file, "cannot be read");
+  MadeDetections made{.label = label, .detections = {}};
+  try {
+    while ((stream >> std::ws).good() && stream.peek() != std::ifstream::traits_type::eof()) {
+      nlohmann::ordered_json json;
+      stream >> json;
+      made.detections.push_back(DetectionFromJson(json));
+    }
+  } catch (const std::runtime_error& error) {
+    throw InputError(file,
+                     fmt::format("detection {}: {}", made.detections.size() + 1, error.what()));
+  } catch (const nlohmann::json::exception& error) {
+    throw InputError(file,
+                     fmt::format("detection {}: {}", made.detections.size() + 1, error.what()));
+  }
+  if (made.detections.size() != frames) {
+    throw InputError(file, fmt::format("has {} detections; the sequence has {} frames",
+                                       made.detections.size(), frames));
+  }
+  return made;
+}
+
+std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
+  const auto trials = TryAll(run);
+  ResultStore store = ResultStore::Create(run.out / ResultStore::kFileName, MetadataOf(run),
+                                          ResultStore::IfExists::kReplace);
+  for (const auto& rows : trials) store.AddTrial(rows);
+  const std::vector<TrialRecord> records = store.Rows();
+  std::vector<CellSummary> summaries = Summarise(records);
+  WriteReports(run, records, summaries);
+  return summaries;
+}
+
+}  // namespace fenestra

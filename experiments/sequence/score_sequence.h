@@ -1,0 +1,38 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/detection/detection_json.h"
+#include "experiments/analysis/cell_summary.h"
+#include "experiments/sequence/sequence.h"
+#include "experiments/trial/detector_maker.h"
+
+namespace fenestra {
+
+/// The detections of a detector that runs elsewhere, one for each image of a sequence, in order.
+struct MadeDetections {
+  std::string label;
+  std::vector<TimedDetection> detections;
+};
+
+/// Reads detections as `fenestra detect --json` prints them, one after the other; white space
+/// between them is free. Throws InputError, also if they are not `frames` in number.
+MadeDetections ReadDetections(const std::string& label, const std::filesystem::path& file,
+                              size_t frames);
+
+/// A recorded sequence that is scored into a results folder: results.sqlite, trials.csv,
+/// summary.csv and summary.md, as those of a study (run_study.h).
+struct SequenceRun {
+  Sequence sequence;
+  std::vector<MadeDetections> made;
+  std::filesystem::path out;
+  std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
+};
+
+/// Throws InputError for a file that cannot be read; nothing is written then.
+std::vector<CellSummary> ScoreSequence(const SequenceRun& run);
+
+}  // namespace fenestra

@@ -1,0 +1,45 @@
+#include "experiments/study/trial_settings.h"
+
+#include "core/system/check.h"
+#include "renderers/ray_caster.h"
+#include "scenes/facade/facade_check.h"
+
+namespace fenestra {
+
+PaperTargetOptions PaperTargetOf(const TrialSettings& settings) {
+  const WallOptions& wall = settings.facade.wall;
+  const WindowOptions& window = settings.facade.window;
+  return {.width_m = window.width_m,
+          .height_m = window.height_m,
+          .border_m = window.frame_width_m,
+          .wall_width_m = wall.width_m,
+          .wall_height_m = wall.height_m,
+          .wall_reflectance = wall.paint.reflectance,
+          .wall_reflectance_830nm = wall.paint.reflectance_830nm,
+          .frame_reflectance = window.frame.reflectance,
+          .frame_reflectance_830nm = window.frame.reflectance_830nm,
+          .with_target = settings.facade.with_target};
+}
+
+Scene MakeScene(const TrialSettings& settings) {
+  if (settings.scene == kPaperTargetScene) return MakePaperTarget(PaperTargetOf(settings));
+  FENESTRA_CHECK(settings.scene == kFacadeScene, "unknown scene " + settings.scene);
+  return MakeFacade(settings.facade);
+}
+
+void Validate(const TrialSettings& settings, SensorKind sensor) {
+  if (settings.scene == kFacadeScene) {
+    Validate(settings.facade);  // Made in full, textured facades would take too long.
+  } else {
+    MakeScene(settings);
+  }
+  if (sensor == SensorKind::kStereo) {
+    Validate(settings.stereo);
+    Validate(RenderOptions{.edge_samples_per_pixel = settings.stereo.edge_samples_per_pixel});
+  } else {
+    Validate(settings.rgbd);
+    Validate(RenderOptions{.edge_samples_per_pixel = settings.rgbd.edge_samples_per_pixel});
+  }
+}
+
+}  // namespace fenestra

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
+#include "experiments/study/calibration_choice.h"
+#include "experiments/trial/calibration_cache.h"
+#include "sim/stereo/stereo_rig.h"
+
+namespace fenestra {
+
+/// A rig as it flies, and what detectors are told of it.
+struct CalibratedRig {
+  StereoRig rig;
+  StereoCalibration told;
+  /// How far `told` may be from the truth: see CalibrationLaw. nullopt: it is the truth.
+  std::optional<PairMatrix> law;
+};
+
+/// Calibrates a rig that was just built. A pure function of all but the cache, which only saves
+/// time. Throws InputError if a calibration with boards fails.
+CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
+                         const RandomStream& calibration, const CalibrationCache& cache);
+
+}  // namespace fenestra

@@ -1,0 +1,104 @@
+#include "experiments/trial/calibration_cache.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "core/geometry/calibration_io.h"
+#include "core/io/atomic_file.h"
+#include "core/io/input_error.h"
+#include "core/system/program.h"
+
+namespace fenestra {
+namespace {
+
+// FNV-1a, 64 bit.
+uint64_t HashOf(const std::string& text) {
+  uint64_t hash = 14695981039346656037u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+  return hash;
+}
+
+// The text as YAML comments, after the calibration that it belongs to.
+std::string AsComments(const std::string& text) {
+  std::istringstream lines(text);
+  std::string comments;
+  for (std::string line; std::getline(lines, line);) comments += "# " + line + "\n";
+  return comments;
+}
+
+// What a file holds of a calibration: its sum shows damage.
+std::string Sealed(const std::string& content, const std::string& comments) {
+  return content + fmt::format("# sum {:016x}\n", HashOf(content)) + comments;
+}
+
+constexpr char kCovariance[] = "# covariance ";
+
+std::string ToText(const StatedCalibration& stated) {
+  const double* numbers = stated.covariance.data();
+  return fmt::format("{}{}{}\n", ToOpenCvYaml(stated.calibration), kCovariance,
+                     fmt::join(numbers, numbers + stated.covariance.size(), " "));
+}
+
+PairMatrix CovarianceIn(const std::string& text) {
+  std::istringstream numbers(text.substr(text.find(kCovariance) + sizeof kCovariance - 1));
+  PairMatrix covariance;
+  std::string number;
+  for (double& element : covariance.reshaped()) {
+    numbers >> number;
+    element = std::strtod(number.c_str(), nullptr);
+  }
+  return covariance;
+}
+
+std::optional<StatedCalibration> Read(const std::filesystem::path& file,
+                                      const std::string& comments) {
+  // A folder can be opened as a file; reading it is what fails.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
+  std::ifstream stream(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  const size_t end = text.find("# sum ");
+  if (end == std::string::npos || text != Sealed(text.substr(0, end), comments)) {
+    return std::nullopt;
+  }
+  try {
+    return StatedCalibration{ReadStereoCalibration(file), CovarianceIn(text)};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+CalibrationCache CalibrationCache::OfUser() {
+  if (BuildId().empty()) return {};
+  if (const char* own = std::getenv("FENESTRA_CACHE")) return CalibrationCache(own);
+  if (const char* xdg = std::getenv("XDG_CACHE_HOME")) {
+    return CalibrationCache(std::filesystem::path(xdg) / "fenestra");
+  }
+  if (const char* home = std::getenv("HOME")) {
+    return CalibrationCache(std::filesystem::path(home) / ".cache" / "fenestra");
+  }
+  return {};
+}
+
+StatedCalibration CalibrationCache::Get(const std::string& content,
+                                        const std::function<StatedCalibration()>& compute) const {
+  if (!folder_) return compute();
+  const std::string comments = AsComments("build " + BuildId() + "\n" + content);
+  const std::filesystem::path file =
+      *folder_ / fmt::format("calibration-{:016x}.yaml", HashOf(comments));
+  if (const auto known = Read(file, comments)) return *known;
+  const StatedCalibration computed = compute();
+  try {
+    WriteFileAtomically(file, Sealed(ToText(computed), comments));
+  } catch (const InputError&) {
+    // Computed again next time.
+  }
+  return computed;
+}
+
+}  // namespace fenestra

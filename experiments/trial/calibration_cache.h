@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "core/geometry/calibration.h"
+#include "vision/calibration/bundle_adjustment.h"
+
+namespace fenestra {
+
+/// A calibration and the covariance that it states of itself; see StereoCalibrationResult.
+struct StatedCalibration {
+  StereoCalibration calibration;
+  PairMatrix covariance;
+
+  bool operator==(const StatedCalibration&) const = default;
+};
+
+/// Calibrations that were computed before, kept in files: the cells of a study share their rigs,
+/// and a study that is resumed, or run again with another detector, meets the same ones. The name
+/// of a file is a hash of all that its calibration depends on, the program's own build among it;
+/// the file repeats that text, so that a collision is noticed. Files appear by rename; a damaged
+/// one is computed anew. Thread-safe, and safe between processes.
+class CalibrationCache {
+ public:
+  /// No cache: everything is computed.
+  CalibrationCache() = default;
+  explicit CalibrationCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// In $FENESTRA_CACHE, $XDG_CACHE_HOME/fenestra or ~/.cache/fenestra. None if there is no such
+  /// place or the program's build cannot be told from others.
+  static CalibrationCache OfUser();
+
+  /// The calibration that belongs to `content`; `compute` makes it where it is not known. A folder
+  /// that cannot be written costs time, not the result.
+  StatedCalibration Get(const std::string& content,
+                        const std::function<StatedCalibration()>& compute) const;
+
+ private:
+  std::optional<std::filesystem::path> folder_;
+};
+
+}  // namespace fenestra

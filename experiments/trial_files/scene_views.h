@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "scenes/gltf/gltf.h"
+
+namespace fenestra {
+
+struct SceneViewOptions {
+  std::optional<std::string> camera = {};  ///< By name; otherwise all of the scene's cameras.
+  /// Size of the view that a scene without cameras is given.
+  int width_px = 752;
+  int height_px = 480;
+  Lighting lighting = {};
+};
+
+/// The cameras that the options ask for. A scene without any is seen from the front: its target
+/// from a distance of three times its larger side, or else all of it from above and to the side.
+/// Throws InputError for a name that no camera has.
+std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOptions& options);
+
+/// Writes what each camera sees without a sensor, into a folder of its name:
+///
+///     color.png     sRGB; exposed such that 1 % of the pixels are white
+///     infrared.png  the same at 830 nm
+///     scene.exr     radiance in R, G, B and at 830 nm, and all per-pixel truth (see AovChannels)
+///     truth.json    pose and windows
+///
+/// Surfaces that are not closed are tessellated first, as light is known at vertices.
+void WriteSceneViews(const std::filesystem::path& folder, const GltfScene& world,
+                     const SceneViewOptions& options);
+
+}  // namespace fenestra

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "renderers/light/lane_kernels.h"
+#include "renderers/light/lit_surfaces.h"
+#include "renderers/light/sky_light.h"
+#include "renderers/tracing/traced_scene.h"
+
+namespace fenestra {
+
+/// The light of a scene under one lighting: what arrives along rays.
+///
+/// Along a ray that meets a surface arrives the surface's radiance (see SideRadiance) with V found
+/// by a shadow ray, the lamps' light with one more each, and all of it times the surface's pattern.
+/// A pane of glass before it adds its mirror image, seen without further panes:
+///
+///     L = (1 − R) L_behind + R L_mirror.
+class LightTransport {
+ public:
+  static constexpr int kMostChannels = 3;
+
+  /// What all light transports of one scene have in common.
+  struct Surfaces {
+    const Scene& scene;
+    const TracedScene& traced;
+    const LightBake& bake;
+    /// A number for each side of each surface, for the sky and for the ground.
+    const std::vector<uint32_t>& side_keys;
+  };
+
+  /// A ray's neighbours are this far from it: `spread` times its depth, at an angle to the surface.
+  struct Viewer {
+    glm::vec3 p_WC;
+    float spread = 0.0f;
+  };
+
+  /// `ambient`: irradiance of the bake's points under this lighting, without what comes straight
+  /// from sun and lamps.
+  LightTransport(const Surfaces& surfaces, const std::vector<Spectrum>& ambient,
+                 const Lighting& lighting, const std::vector<Channel>& channels,
+                 const Viewer& viewer);
+
+  int channel_count() const { return static_cast<int>(channels_.size()); }
+
+  struct Arriving {
+    std::array<Lanes<float>, kMostChannels> radiance;
+    /// Different where something else is seen: another surface, sun instead of shadow, a pane
+    /// before it, another mirror image in the pane.
+    Lanes<uint32_t> key;
+  };
+
+  /// Traces fresh rays (see SetRays) in the lanes of the mask; other lanes are undefined.
+  Arriving Trace(const LaneMask& mask, RayPacket& packet) const;
+
+  /// Where a packet's rays end on opaque surfaces, and the light there.
+  struct Ends {
+    Lanes<uint32_t> side_hit;  ///< See SideIndex.
+    std::array<Lanes<float>, kMostChannels> radiance;
+    /// The part of the sun's light that arrives, panes considered: 0 in the shadow, where the
+    /// surface faces away, where nothing was hit and without a sun.
+    Lanes<float> sun;
+    LaneMask sun_disc;           ///< The ray goes to the sun itself.
+    Lanes<float> transmittance;  ///< Of the panes before the surface.
+  };
+
+  /// Traces fresh rays as if the panes between the viewer and the surfaces took no light.
+  Ends TraceOpaque(const LaneMask& mask, RayPacket& packet) const;
+
+ private:
+  Ends Shade(const LaneMask& mask, const RayPacket& packet, const Lanes<float>& before) const;
+  Arriving WithKeys(const Ends& ends) const;
+  Lanes<float> SunReaching(const LaneMask& mask, const RayPacket& packet,
+                           const Lanes<float>& sun_facing) const;
+  void AddLamps(const LaneMask& mask, const RayPacket& packet, Ends& ends) const;
+  void AddSky(const LaneMask& mask, const RayPacket& packet, Ends& ends) const;
+  void ApplyPatterns(const LaneMask& mask, const RayPacket& packet, const Lanes<float>& before,
+                     Ends& ends) const;
+
+  Surfaces surfaces_;
+  std::vector<Channel> channels_;
+  std::vector<std::vector<SideRadiance>> sides_;        // Per channel.
+  std::vector<std::vector<Spectrum>> pattern_weights_;  // Per channel and mesh.
+  std::vector<std::vector<Spectrum>> lamp_weights_;     // Per channel and mesh: ρ/π of the lamps.
+  SkyLight sky_;
+  bool sky_varies_;
+  bool has_sun_;
+  float lamp_dimmer_;
+  glm::vec3 to_sun_W_;
+  float offset_m_;
+  float spread_;
+};
+
+/// Keys for LightTransport::Surfaces.
+std::vector<uint32_t> MakeSideKeys(const std::vector<uint32_t>& surfaces);
+
+}  // namespace fenestra

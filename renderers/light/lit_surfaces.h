@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderers/light/light_bake.h"
+#include "renderers/light/spectrum.h"
+#include "renderers/tracing/packet.h"
+#include "renderers/tracing/triangle_soup.h"
+#include "scenes/lighting.h"
+
+namespace fenestra {
+
+/// Light leaving one side of a triangle in one channel, as a function of a hit's barycentric (u, v)
+/// and of the part V of the sunlight that arrives, without lamps and patterns:
+///
+///     L(u, v, V) = ambient + ambient_u u + ambient_v v + V max(sun + sun_u u + sun_v v, 0).
+struct SideRadiance {
+  float ambient = 0.0f;
+  float ambient_u = 0.0f;
+  float ambient_v = 0.0f;
+  float sun = 0.0f;  ///< 0 with its derivatives where the sun stands behind this side.
+  float sun_u = 0.0f;
+  float sun_v = 0.0f;
+};
+
+/// Of a sky or sun of illuminance 1: the spectral irradiance at 830 nm may be 0.
+inline Spectrum DaylightSpectrum(double illuminance_lx, const Lighting& lighting) {
+  const auto E = static_cast<float>(illuminance_lx);
+  return {E, E, E, static_cast<float>(illuminance_lx * lighting.irradiance_830_per_lux)};
+}
+
+/// Exitance of the unobstructed ground: ρ_g (E_sky + E_sun sin γ_sun).
+Spectrum GroundExitance(const Lighting& lighting);
+
+/// The sun's illuminance; 0 below the horizon.
+double SunIlluminance(const Lighting& lighting);
+
+/// Radiance of all sides; `ambient` is the irradiance of the bake's points. The sky's is left at 0.
+///
+/// For channels of arriving light it is the irradiance itself, and 0 for sky and ground.
+std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
+                                        const LightBake& bake, const std::vector<Spectrum>& ambient,
+                                        const Lighting& lighting, Channel channel);
+
+/// The different sides among those that a packet has hit: few, and all lanes of one are shaded
+/// at once.
+struct SideGroups {
+  Lanes<uint32_t> sides;
+  int count = 0;
+};
+SideGroups GroupsOf(const Lanes<uint32_t>& side_hit);
+
+/// The light that leaves each hit, without the sun's, and the sun's if it reaches the hit.
+/// `groups`: of the sides hit.
+Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
+                            const Lanes<uint32_t>& side_hit, const RayPacket& packet);
+Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+                        const Lanes<uint32_t>& side_hit, const RayPacket& packet);
+
+}  // namespace fenestra

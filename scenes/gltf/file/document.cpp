@@ -1,0 +1,101 @@
+#include "scenes/gltf/file/document.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "core/io/input_error.h"
+#include "scenes/gltf/file/glb.h"
+
+namespace fenestra::gltf {
+namespace {
+
+using nlohmann::json;
+
+// Readers of JSON trees recurse; the deepest place of glTF 2.0 with our extensions is about 10.
+constexpr int kDeepestNesting = 64;
+// A value costs some ten times its text in memory. The largest honest scenes have some thousands.
+constexpr size_t kMostValues = 5'000'000;
+
+[[noreturn]] void RefuseText(const std::filesystem::path& file, std::string_view text, size_t byte,
+                             std::string message) {
+  const std::string_view before = text.substr(0, std::min(byte, text.size()));
+  const auto line = static_cast<int>(std::ranges::count(before, '\n')) + 1;
+  const size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0: the first line.
+  const int column = std::max(1, static_cast<int>(before.size() - line_start));
+  throw InputError(std::vector<InputFault>{{file.string(), line, column, std::move(message)}});
+}
+
+// nlohmann's message without its "[json.exception.parse_error.101] parse error at line 1, column 2:
+// ".
+std::string PlainReason(std::string_view what) {
+  const size_t colon = what.find(": ");
+  return "not JSON: " + std::string(colon == what.npos ? what : what.substr(colon + 2));
+}
+
+// Bounds what parsing the text can cost, by its brackets and commas outside of strings; whether it
+// is JSON the parser will say. (The parser's own callback, which could do this, takes time with the
+// square of an array's length.)
+void CheckCost(const std::filesystem::path& file, std::string_view text) {
+  int depth = 0;
+  size_t values = 1;
+  bool in_string = false;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      if (c == '"') in_string = false;
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      ++depth;
+      ++values;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else if (c == ',') {
+      ++values;
+    }
+    if (depth > kDeepestNesting) {
+      throw InputError(file, fmt::format("nested deeper than {} levels", kDeepestNesting));
+    }
+    if (values > kMostValues) {
+      throw InputError(file, fmt::format("more than {} JSON values", kMostValues));
+    }
+  }
+}
+
+json ParseJson(const std::filesystem::path& file, std::string_view text) {
+  CheckCost(file, text);
+  try {
+    return json::parse(text.begin(), text.end());
+  } catch (const json::parse_error& error) {
+    RefuseText(file, text, error.byte, PlainReason(error.what()));
+  } catch (const json::exception& error) {  // A number that no double can hold.
+    throw InputError(file, PlainReason(error.what()));
+  }
+}
+
+}  // namespace
+
+Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget) {
+  const Bytes bytes = ReadWholeFile(file, budget);
+  Document document{.file = file, .json = {}, .binary_chunk = {}};
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  // Not by the file's extension: a wrong one should not matter, and damaged magic bytes of a .glb
+  // are named as such.
+  if (text.starts_with("glTF") || file.extension() == ".glb") {
+    const GlbChunks chunks = SplitGlb(file, bytes);
+    text = chunks.json;
+    if (chunks.binary) document.binary_chunk.emplace(chunks.binary->begin(), chunks.binary->end());
+  }
+  document.json = ParseJson(file, text);
+  if (!document.json.is_object()) throw InputError(file, "the JSON is not an object");
+  return document;
+}
+
+std::string MemberPointer(const std::string& name) {
+  return (json::json_pointer() / name).to_string();
+}
+
+}  // namespace fenestra::gltf

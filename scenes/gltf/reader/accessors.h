@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "scenes/gltf/reader/asset.h"
+
+namespace fenestra::gltf {
+
+/// The elements of an accessor, wherever they lie: packed, interleaved, sparse, or undefined, which
+/// glTF calls zeros. Normalised integers become [0, 1] or [-1, 1] by section 3.11 of the
+/// specification; other integers keep their value.
+
+/// All components of all elements, in order. Throws InputError for a component that is not a
+/// finite number, for a sparse accessor whose indices are out of order, and where the buffer has no
+/// data.
+std::vector<float> ReadFloats(const Asset& asset, int accessor);
+
+std::vector<glm::vec2> ReadVec2(const Asset& asset, int accessor);
+std::vector<glm::vec3> ReadVec3(const Asset& asset, int accessor);
+/// A VEC3 gets w = 1, as a colour without alpha.
+std::vector<glm::vec4> ReadVec4(const Asset& asset, int accessor);
+
+/// Of an accessor of unsigned integers.
+std::vector<uint32_t> ReadUnsigned(const Asset& asset, int accessor);
+
+}  // namespace fenestra::gltf

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/io/faults.h"
+#include "scenes/gltf/reader/asset.h"
+#include "scenes/texture.h"
+
+namespace fenestra::gltf {
+
+/// A decoded image: sRGB-encoded colours and linear alpha, row-major from the top left.
+struct Picture {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<glm::u8vec4> texels;
+};
+
+/// Holds the headers of all images of an asset, needed or not, against the limits and for
+/// completeness. Images of formats that an ignored extension brings along are left alone.
+void CheckImages(const Asset& asset, Faults& faults);
+
+/// How many pixels may still be decoded.
+class PixelBudget {
+ public:
+  explicit PixelBudget(size_t pixels) : left_(pixels) {}
+  [[nodiscard]] bool Take(size_t pixels) {
+    if (pixels > left_) return false;
+    left_ -= pixels;
+    return true;
+  }
+
+ private:
+  size_t left_;
+};
+
+/// Decodes PNG or JPEG to 8 bits a channel. Throws InputError for damaged data, for another format,
+/// and beyond the budget, before anything is decompressed.
+Picture DecodeImage(const Asset& asset, size_t image, PixelBudget& budget);
+
+}  // namespace fenestra::gltf

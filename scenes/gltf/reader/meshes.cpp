@@ -1,0 +1,158 @@
+#include "scenes/gltf/reader/meshes.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/io/input_error.h"
+#include "scenes/gltf/file/values.h"
+#include "scenes/gltf/reader/instancing.h"
+#include "scenes/gltf/reader/skinning.h"
+#include "scenes/gltf/reader/surfaces.h"
+#include "scenes/gltf/reader/world_surface.h"
+#include "scenes/gltf/validation/instance_attributes.h"
+
+namespace fenestra::gltf {
+namespace {
+
+using Eigen::Matrix4d;
+
+// Each is an object with arrays of its own, which costs half a kilobyte.
+constexpr size_t kMostMeshes = 1'000'000;
+
+const tinygltf::Mesh* MeshOf(const Asset& asset, const PlacedNode& placed) {
+  const int mesh = asset.model.nodes[placed.node].mesh;
+  return placed.is_visible && mesh >= 0 ? &asset.model.meshes[static_cast<size_t>(mesh)] : nullptr;
+}
+
+void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most) {
+  size_t triangles = 0;
+  size_t vertices = 0;
+  size_t meshes = 0;
+  for (const PlacedNode& placed : nodes) {
+    const tinygltf::Mesh* mesh = MeshOf(asset, placed);
+    if (mesh == nullptr) continue;
+    const size_t instances = InstanceCount(asset.model, asset.model.nodes[placed.node]);
+    for (const tinygltf::Primitive& primitive : mesh->primitives) {
+      if (!IsSurface(primitive)) continue;
+      const size_t more_triangles = ClaimedTriangles(asset, primitive);
+      const size_t more_vertices = ClaimedVertices(asset, primitive);
+      // Divided rather than multiplied, which could overflow.
+      if (more_triangles > (most - triangles) / instances ||
+          more_vertices > (3 * most - vertices) / instances || instances > kMostMeshes - meshes) {
+        throw InputError(asset.file,
+                         fmt::format("/nodes/{}: with its mesh the scene has more than "
+                                     "{} triangles, thrice as many vertices or {} meshes",
+                                     placed.node, most, kMostMeshes));
+      }
+      meshes += instances;
+      triangles += more_triangles * instances;
+      vertices += more_vertices * instances;
+    }
+  }
+}
+
+class MeshPlacer {
+ public:
+  MeshPlacer(const Asset& asset, const std::vector<PlacedNode>& nodes,
+             const std::vector<ReadMaterial>& materials, Notes& notes)
+      : asset_(asset), materials_(materials), notes_(notes), by_node_(asset.model.nodes.size()) {
+    for (const PlacedNode& placed : nodes) by_node_[placed.node] = &placed;
+  }
+
+  void Place(const PlacedNode& placed, std::vector<Mesh>& meshes);
+
+ private:
+  /// A primitive of a mesh, ready to be placed.
+  struct Part {
+    std::string suffix;  ///< Of the mesh's name.
+    uint32_t material = 0;
+    Surface surface;
+  };
+
+  std::vector<Part> ReadParts(const tinygltf::Node& node, const std::string& name);
+  Mesh PlacePart(const PlacedNode& placed, const Matrix4d& M_NI, const Part& part);
+
+  const Asset& asset_;
+  const std::vector<ReadMaterial>& materials_;
+  Notes& notes_;
+  std::vector<const PlacedNode*> by_node_;  // nullptr where a node is not in the scene.
+};
+
+void MeshPlacer::Place(const PlacedNode& placed, std::vector<Mesh>& meshes) {
+  const tinygltf::Mesh* source = MeshOf(asset_, placed);
+  if (source == nullptr) return;
+  const tinygltf::Node& node = asset_.model.nodes[placed.node];
+  const std::string& name = node.name.empty() ? source->name : node.name;
+  const std::vector<Part> parts = ReadParts(node, name);
+  const tinygltf::Value* closed = Find(source->extras, {"fenestra", "closed"});
+  const std::vector<Matrix4d> instances = InstanceTransforms(asset_, node);
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const std::string suffix = instances.size() == 1 ? "" : fmt::format("[{}]", i);
+    for (const Part& part : parts) {
+      Mesh& mesh = meshes.emplace_back(PlacePart(placed, instances[i], part));
+      mesh.name = name + suffix + part.suffix;
+      mesh.material = part.material;
+      mesh.closed = closed != nullptr && closed->Get<bool>();
+    }
+  }
+}
+
+std::vector<MeshPlacer::Part> MeshPlacer::ReadParts(const tinygltf::Node& node,
+                                                    const std::string& name) {
+  const tinygltf::Mesh& mesh = asset_.model.meshes[static_cast<size_t>(node.mesh)];
+  const std::vector<double>& weights = node.weights.empty() ? mesh.weights : node.weights;
+  const std::string thing = Named("mesh", name, static_cast<size_t>(node.mesh));
+  std::vector<Part> parts;
+  for (size_t i = 0; i < mesh.primitives.size(); ++i) {
+    const tinygltf::Primitive& primitive = mesh.primitives[i];
+    if (!IsSurface(primitive)) {
+      notes_.Add("points, lines and primitives without positions are left out", thing);
+      continue;
+    }
+    Part part{.suffix = mesh.primitives.size() == 1 ? "" : fmt::format(".{}", i),
+              .material = static_cast<uint32_t>(materials_.size()),
+              .surface = {}};
+    std::optional<TextureUse> texture;
+    if (primitive.material >= 0) {
+      part.material = static_cast<uint32_t>(primitive.material);
+      if (materials_[part.material].is_invisible) continue;
+      texture = materials_[part.material].texture;
+    }
+    part.surface = ReadSurface(asset_, primitive, texture, weights, thing, notes_);
+    if (!part.surface.triangles.empty()) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+Mesh MeshPlacer::PlacePart(const PlacedNode& placed, const Matrix4d& M_NI, const Part& part) {
+  const tinygltf::Node& node = asset_.model.nodes[placed.node];
+  const bool is_skinned = node.skin >= 0 && !part.surface.joint_sets.empty();
+  Mesh mesh =
+      is_skinned ? CarryToWorld(part.surface, SkinTransforms(asset_, static_cast<size_t>(node.skin),
+                                                             part.surface, by_node_))
+                 : CarryToWorld(part.surface, placed.M_WN * M_NI);
+  if (mesh.normals_W.empty() && !part.surface.normals_M.empty()) {
+    notes_.Add("some of its normals have no direction, so it is rendered without",
+               Named("mesh", node.name, static_cast<size_t>(node.mesh)));
+  }
+  return mesh;
+}
+
+}  // namespace
+
+PlacedMeshes PlaceMeshes(const Asset& asset, const std::vector<PlacedNode>& nodes,
+                         const std::vector<ReadMaterial>& materials, size_t max_triangles,
+                         Notes& notes) {
+  CheckTriangleCount(asset, nodes, max_triangles);
+  MeshPlacer placer(asset, nodes, materials, notes);
+  PlacedMeshes result;
+  for (const PlacedNode& placed : nodes) {
+    result.first_mesh.push_back(result.meshes.size());
+    placer.Place(placed, result.meshes);
+  }
+  result.first_mesh.push_back(result.meshes.size());
+  return result;
+}
+
+}  // namespace fenestra::gltf

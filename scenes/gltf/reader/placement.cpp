@@ -1,0 +1,136 @@
+#include "scenes/gltf/reader/placement.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/input_error.h"
+#include "scenes/gltf/file/values.h"
+
+namespace fenestra::gltf {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Matrix4d;
+using Eigen::Vector3d;
+
+Matrix4d LocalTransform(const tinygltf::Node& node) {
+  if (!node.matrix.empty()) return Eigen::Map<const Matrix4d>(node.matrix.data());
+  Matrix4d M = Matrix4d::Identity();
+  if (!node.rotation.empty()) {
+    const Eigen::Quaterniond q(node.rotation[3], node.rotation[0], node.rotation[1],
+                               node.rotation[2]);
+    M.topLeftCorner<3, 3>() = q.normalized().toRotationMatrix();
+  }
+  for (int i = 0; i < 3 && !node.scale.empty(); ++i) {
+    M.col(i) *= node.scale[static_cast<size_t>(i)];
+  }
+  for (int i = 0; i < 3 && !node.translation.empty(); ++i) {
+    M(i, 3) = node.translation[static_cast<size_t>(i)];
+  }
+  return M;
+}
+
+std::vector<int> RootsOf(const Asset& asset, std::optional<int> scene_index) {
+  const auto& scenes = asset.model.scenes;
+  if (scene_index) {
+    if (*scene_index < 0 || static_cast<size_t>(*scene_index) >= scenes.size()) {
+      throw InputError(asset.file, fmt::format("scene {} does not exist; there {} {}", *scene_index,
+                                               scenes.size() == 1 ? "is" : "are", scenes.size()));
+    }
+    return scenes[static_cast<size_t>(*scene_index)].nodes;
+  }
+  if (!scenes.empty()) {
+    return scenes[static_cast<size_t>(std::max(0, asset.model.defaultScene))].nodes;
+  }
+  // A library of nodes without a scene: show all of them.
+  std::vector<bool> is_child(asset.model.nodes.size(), false);
+  for (const tinygltf::Node& node : asset.model.nodes) {
+    for (const int child : node.children) is_child[static_cast<size_t>(child)] = true;
+  }
+  std::vector<int> roots;
+  for (size_t i = 0; i < is_child.size(); ++i) {
+    if (!is_child[i]) roots.push_back(static_cast<int>(i));
+  }
+  return roots;
+}
+
+constexpr size_t kNoParent = static_cast<size_t>(-1);
+
+struct Waiting {
+  size_t node;
+  size_t parent;  // In the list of placed nodes.
+};
+
+PlacedNode Place(const Asset& asset, const Waiting& next, const std::vector<PlacedNode>& placed) {
+  const tinygltf::Node& source = asset.model.nodes[next.node];
+  PlacedNode node{.node = next.node};
+  node.M_WN = LocalTransform(source);
+  if (const tinygltf::Value* visibility = Extension(source.extensions, "KHR_node_visibility")) {
+    const tinygltf::Value* visible = Find(*visibility, {"visible"});
+    node.is_visible = visible == nullptr || visible->Get<bool>();
+  }
+  if (next.parent != kNoParent) {
+    const PlacedNode& parent = placed[next.parent];
+    node.M_WN = parent.M_WN * node.M_WN;
+    node.is_visible = node.is_visible && parent.is_visible;
+  }
+  if (!node.M_WN.allFinite()) {
+    throw InputError(asset.file,
+                     fmt::format("/nodes/{}: its place in the world is not finite", next.node));
+  }
+  return node;
+}
+
+}  // namespace
+
+std::vector<PlacedNode> PlaceNodes(const Asset& asset, std::optional<int> scene_index) {
+  std::vector<PlacedNode> placed;
+  std::vector<size_t> parents;
+  // Not recursive: a chain of nodes may be a million long.
+  std::vector<Waiting> stack;
+  const auto push_reversed = [&stack](const std::vector<int>& nodes, size_t parent) {
+    for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) {
+      stack.push_back({static_cast<size_t>(*node), parent});
+    }
+  };
+  push_reversed(RootsOf(asset, scene_index), kNoParent);
+  while (!stack.empty()) {
+    const Waiting next = stack.back();
+    stack.pop_back();
+    placed.push_back(Place(asset, next, placed));
+    parents.push_back(next.parent);
+    placed.back().subtree_end = placed.size();
+    push_reversed(asset.model.nodes[next.node].children, placed.size() - 1);
+  }
+  for (size_t i = placed.size(); i-- > 0;) {
+    if (parents[i] == kNoParent) continue;
+    PlacedNode& parent = placed[parents[i]];
+    parent.subtree_end = std::max(parent.subtree_end, placed[i].subtree_end);
+  }
+  return placed;
+}
+
+std::optional<ScaledPose> RigidPart(const Matrix4d& M_WN) {
+  // Numbers of single precision, through a few products, are off by less.
+  constexpr double kShearTolerance = 1e-5;
+  constexpr double kExactTolerance = 1e-12;
+  const Matrix3d L = M_WN.topLeftCorner<3, 3>();
+  const Vector3d p_WN = M_WN.topRightCorner<3, 1>();
+  const Vector3d scale = L.colwise().norm();
+  if (!(scale.minCoeff() > 0.0) || !scale.allFinite()) return std::nullopt;
+  const Matrix3d R = L * scale.cwiseInverse().asDiagonal();
+  const double deviation = (R.transpose() * R - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (!(deviation < kShearTolerance) || !(R.determinant() > 0.0)) return std::nullopt;
+  const double distance = (L.transpose() * L - Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (distance < kExactTolerance) return ScaledPose{Pose(L, p_WN), Vector3d::Ones()};
+  // The nearest rotation.
+  const Eigen::JacobiSVD<Matrix3d> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return ScaledPose{Pose(svd.matrixU() * svd.matrixV().transpose(), p_WN), scale};
+}
+
+}  // namespace fenestra::gltf

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "scenes/gltf/reader/asset.h"
+
+namespace fenestra::gltf {
+
+/// A node where it stands. M_WN maps the node's coordinates to the world's; affine, not always a
+/// rigid transform.
+struct PlacedNode {
+  size_t node = 0;
+  Eigen::Matrix4d M_WN = Eigen::Matrix4d::Identity();
+  bool is_visible = true;  ///< KHR_node_visibility, of the node and all its ancestors.
+  size_t subtree_end = 0;  ///< In the list of placed nodes: behind the last descendant.
+};
+
+/// All nodes of the chosen scene, each before its descendants, siblings in the document's order.
+/// Throws InputError for a scene that does not exist and for transforms that overflow.
+std::vector<PlacedNode> PlaceNodes(const Asset& asset, std::optional<int> scene_index);
+
+/// A transform that is a rotation and translation after a scaling along the axes.
+struct ScaledPose {
+  Pose X_WN;
+  Eigen::Vector3d scale;
+};
+
+/// nullopt for a sheared, mirrored or singular transform. A rigid transform keeps its bits.
+std::optional<ScaledPose> RigidPart(const Eigen::Matrix4d& M_WN);
+
+}  // namespace fenestra::gltf

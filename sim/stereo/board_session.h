@@ -1,0 +1,54 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/geometry/calibration_board.h"
+#include "sim/stereo/stereo_rig.h"
+
+namespace fenestra {
+
+/// How a rig is calibrated: pairs of pictures of a board, from many sides.
+struct BoardSessionOptions {
+  CalibrationBoard board;
+  int views = 20;
+  double illuminance_lx = 3000.0;  ///< A room by its window, or under studio lamps.
+  /// Width of the board as a share of the image's width.
+  double smallest_share = 0.25;
+  double largest_share = 0.55;
+  double largest_tilt_rad = 0.70;  ///< 40°: beyond it corners become slivers.
+  double largest_roll_rad = 0.26;  ///< 15°, about the optical axis.
+};
+
+/// Throws InputError with all faults.
+void Validate(const BoardSessionOptions& options);
+
+/// A board and what it takes to render it: made once, for all rigs.
+class BoardWorld {
+ public:
+  explicit BoardWorld(const CalibrationBoard& board);
+  const CalibrationBoard& board() const { return board_; }
+  const RayCaster& caster() const { return *caster_; }
+
+ private:
+  CalibrationBoard board_;
+  std::unique_ptr<const RayCaster> caster_;
+};
+
+/// Where a rig stands for one view: X_LG of the board in the left camera as designed. Size, tilt,
+/// roll and place in the image are uniform, within what both cameras as designed see with 3 % of
+/// the image's width to spare. nullopt if there is no such place: the cameras' views do not
+/// overlap enough for this board.
+std::optional<Pose> DrawBoardPose(const StereoCalibration& design,
+                                  const BoardSessionOptions& session, const RandomStream& view);
+
+/// Pictures of the board, with the rig's own optics, noise and exposure; not moving. Throws
+/// InputError where the cameras' views do not overlap enough.
+StereoObservation ShootBoard(const StereoRig& rig, const BoardWorld& world,
+                             const BoardSessionOptions& session, const RandomStream& view);
+
+/// X_LG of the board in the rig's true left camera, for the view that ShootBoard takes.
+Pose TrueBoardPose(const StereoRig& rig, const BoardSessionOptions& session,
+                   const RandomStream& view);
+
+}  // namespace fenestra

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <memory>
+
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
+#include "renderers/ray_caster.h"
+#include "sim/camera/image_sensor.h"
+#include "sim/camera/lens.h"
+#include "sim/camera/spectral_response.h"
+#include "sim/motion/rig_motion.h"
+#include "sim/truth/ground_truth.h"
+#include "sim/truth/truth_images.h"
+
+namespace fenestra {
+
+/// How far a rig as built departs from its design: standard deviations of independent normal laws,
+/// for each camera. Assumed: what a workshop and a lens maker's catalogue promise.
+struct RigTolerances {
+  double focal_length = 0.01;       ///< Relative; both axes together.
+  double principal_point_px = 5.0;  ///< Each axis.
+  double distortion = 0.05;         ///< Of each coefficient, relative.
+  double rotation_rad = 3e-3;       ///< About each axis.
+  double translation_m = 5e-4;      ///< Along each axis.
+};
+
+/// A pair of IDS uEye UI-1226LE-M-G (MT9V032, 752 x 480, 6 µm) on a 35 cm bar, as designed.
+struct StereoRigOptions {
+  int width_px = 752;
+  int height_px = 480;
+  double pixel_pitch_m = 6e-6;
+  double focal_length_m = 4e-3;
+  double baseline_m = 0.35;
+  /// Radial distortion of a short S-mount lens; the paper names no lens, and published values for
+  /// this sensor family reach from -0.1 to -0.35.
+  BrownConrady distortion{.k1 = -0.10, .k2 = 0.01, .p1 = 1e-4, .p2 = -1e-4, .k3 = 0.0};
+  LensOptions lens;
+  SpectralOptions spectrum;
+  ImageSensorOptions sensor;
+  ExposureOptions exposure;
+  bool as_designed = false;  ///< Without any departure; tolerances do not count then.
+  RigTolerances tolerances;
+  RigMotion motion;
+  /// By how much the right camera's exposure is later than the left one's [s].
+  double trigger_skew_s = 0.0;
+  /// Where more than one edge crosses a pixel; see RenderOptions.
+  int edge_samples_per_pixel = 256;
+};
+
+/// Throws InputError with all faults.
+void Validate(const StereoRigOptions& options);
+
+/// The rig as designed, before any tolerance.
+StereoCalibration DesignOf(const StereoRigOptions& options);
+
+/// A pair of pictures with what made them.
+struct StereoShot {
+  StereoObservation observation;
+  ExposureSetting exposure;
+  /// Mean photo-electrons of each pixel in the exposure, before fixed pattern and noise.
+  cv::Mat1f left_e;
+  cv::Mat1f right_e;
+};
+
+/// A rig as it stands after it was built: true cameras and poses, and each camera's fixed pattern.
+/// Frame B: origin midway between the cameras as designed, axes of the left camera as designed.
+///
+/// Both shutters are global. Poses, and with them the ground truth, are those at the middle of the
+/// left camera's exposure. Both cameras have one exposure time and gain, chosen by the left image.
+class StereoRig {
+ public:
+  /// Draws the rig that belongs to the stream, within its tolerances. Throws InputError.
+  StereoRig(const StereoRigOptions& options, const RandomStream& rig);
+
+  /// This rig after the right camera has been displaced.
+  StereoRig Displaced(const Pose& X_RRnew) const;
+  /// This rig standing still, with both cameras triggered at once.
+  StereoRig Still() const;
+  /// This rig with the noise and the fixed pattern of its sensors, if its options leave them out.
+  StereoRig WithNoise() const;
+
+  const StereoRigOptions& options() const { return options_; }
+  /// The truth; what detectors are told is another matter.
+  const StereoCalibration& cameras() const { return cameras_; }
+  const Pose& X_BL() const { return X_BL_; }
+  /// Tells the fixed patterns of this rig's cameras from those of others.
+  uint64_t pattern_key() const { return pattern_key_; }
+  Pose X_BR() const { return X_BL_ * cameras_.X_RL.inverse(); }
+
+  StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                            const RandomStream& shot) const;
+  /// The same with what made it.
+  StereoShot Shoot(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                   const RandomStream& shot) const;
+  /// What optics and sensors make of luminance in the image plane, by quarters of pixels [cd/m²].
+  StereoObservation Develop(const QuarterImages& left, const QuarterImages& right,
+                            const RandomStream& shot) const;
+  GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
+  /// Of the left camera.
+  TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
+
+ private:
+  // What does not change when a rig is displaced.
+  struct Camera {
+    Camera(const CameraModel& model, const StereoRigOptions& options, const RandomStream& own);
+    void SetSensor(const ImageSensorOptions& options);
+    RandomStream stream;
+    RayGrid rays;
+    cv::Mat1f illumination;
+    ImageSensor sensor;
+  };
+
+  /// Luminance on the sensor, averaged over an exposure around t.
+  QuarterImages Light(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
+                      const Lighting& lighting, const Pose& X_WB, double t_s, double exposure_s,
+                      const RandomStream& sampling) const;
+  /// Photo-electrons per pixel and second, of luminance.
+  cv::Mat1f ElectronsPerSecond(const Camera& camera, const QuarterImages& light) const;
+  ExposureSetting ExposureFor(const cv::Mat1f& left_electrons_per_s) const;
+  /// Of photo-electrons per pixel and second.
+  StereoObservation Expose(const cv::Mat1f& left, const cv::Mat1f& right,
+                           const ExposureSetting& exposure, const RandomStream& shot) const;
+
+  StereoRigOptions options_;
+  StereoCalibration cameras_;
+  Pose X_BL_;
+  uint64_t pattern_key_;
+  std::shared_ptr<const Camera> left_;
+  std::shared_ptr<const Camera> right_;
+};
+
+}  // namespace fenestra

@@ -1,0 +1,279 @@
+#include "sim/structured_light/parametric_depth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/imgproc.hpp>
+#include <vector>
+
+#include "core/io/input_error.h"
+#include "sim/structured_light/chance_match.h"
+#include "sim/structured_light/missing_return.h"
+
+namespace fenestra {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+// Standard normal at every pixel, but equal to white noise averaged over the block that
+// neighbouring pixels share.
+cv::Mat1f BlockNoise(const RandomStream& stream, cv::Size size, cv::Size block) {
+  const cv::Size reach(block.width / 2, block.height / 2);
+  cv::Mat1f white(size.height + 2 * reach.height, size.width + 2 * reach.width);
+  stream.FillNormals({white.ptr<float>(), white.total()});
+  cv::Mat1f sums;
+  cv::boxFilter(white, sums, CV_32F, block, {-1, -1}, false);
+  return sums(cv::Rect({reach.width, reach.height}, size)) /
+         std::sqrt(static_cast<float>(block.area()));
+}
+
+// Whether a block that reaches so far around pixel (u, v) lies in an image `scale` times as wide.
+bool Covers(cv::Size size, int reach_u, int reach_v, int u, int v, double scale) {
+  return u * scale >= reach_u && u * scale + reach_u <= size.width * scale - 1.0 &&
+         v * scale >= reach_v && v * scale + reach_v <= size.height * scale - 1.0;
+}
+
+// Of how many places of the search the best is sought. A process of autocorrelation exp(-k²/4σ_p²)
+// exceeds a high level u at u/(2 √π σ_p) independent places a pixel (Rice): about two, for u = 4.
+constexpr double kPlaceWidth_px = 0.5;
+
+// The spread of a dot with that of a pixel.
+double SpreadOf(const InfraredOptions& infrared) {
+  return std::sqrt(infrared.dot_sigma_px * infrared.dot_sigma_px + 1.0 / 12.0);
+}
+
+}  // namespace
+
+void Validate(const ParametricDepthOptions& o) {
+  if (o.fixed_disparity_noise_px < 0.0 || o.temporal_disparity_noise_px < 0.0 ||
+      o.lateral_noise_px < 0.0) {
+    throw InputError(
+        {{"structured-light sensor", 0, 0, "disparity and lateral noise must not be negative"}});
+  }
+}
+
+/// A block with the pattern at one disparity.
+struct ParametricDepth::Match {
+  float correlation = 0.0f;    ///< ρ
+  float variance = 0.0f;       ///< V [DN²]
+  float step = 0.0f;           ///< var(m s + a)
+  float explained = 0.0f;      ///< ρ² V
+  float noise = 0.0f;          ///< σ²
+  float strength = 0.0f;       ///< √⟨s²⟩ [DN]
+  float off_centre_px = 0.0f;  ///< Of the evidence, along the rows, in a 640-wide image.
+  float disparity_px = 0.0f;   ///< Mean over the evidence.
+};
+
+ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
+                                 const ParametricDepthOptions& noise,
+                                 const PatternMatchingOptions& matching, const CameraModel& depth,
+                                 double baseline_m, const DisparityRange& range,
+                                 const RollingShutter& shutter)
+    : infrared_(Validated(infrared)),
+      noise_(Validated(noise)),
+      matching_(Validated(matching)),
+      range_(range),
+      p_CP_(baseline_m, 0.0, 0.0),
+      rays_(depth, shutter),
+      pattern_mean_(static_cast<float>(SampledPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
+      search_px_(matching.SearchEnd(range)),
+      scale_(DisparityRange::kImageWidth / depth.width_px()),
+      blocks_(matching.block_width_px / scale_, matching.block_height_px / scale_,
+              static_cast<double>(pattern_mean_), SpreadOf(infrared)) {
+  dots_chance_ = static_cast<float>(SumOfGaussian(2.0 * std::pow(SpreadOf(infrared), 2)));
+  const SampledPattern pattern(infrared.dot_sigma_px);
+  for (int i = 0; i < kPhases; ++i) {
+    const double offset = (i + 0.5) / kPhases;
+    // The search goes by half pixels.
+    const double step = std::round(2.0 * offset) / 2.0;
+    phases_[static_cast<size_t>(i)] = {
+        .variance = static_cast<float>(pattern.MomentsAt(offset).variance),
+        .match = static_cast<float>(pattern.Correlation(offset, step))};
+    whole_besides_ += BesidesIn(phases_[static_cast<size_t>(i)]) / kPhases;
+  }
+}
+
+BlockLight ParametricDepth::LightOf(const AovImages& aovs) const {
+  const cv::Size size = aovs.depth_m.size();
+  BlockLight blocks{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
+  const auto fb = static_cast<float>(range_.focal_times_baseline);
+  const CameraParameters& k = rays_.camera().parameters();
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const Eigen::Vector3d ray((u - k.cx_px) / k.fx_px, (v - k.cy_px) / k.fy_px, 1.0);
+      const InfraredLight light = InfraredLightAt(infrared_, aovs, {u, v}, ray, p_CP_);
+      // A dot may saturate; what counts is how far it stands out of its surroundings.
+      const double ambient_dn = std::min(light.ambient_dn, infrared_.saturation_dn);
+      blocks.ambient_dn(v, u) = static_cast<float>(ambient_dn);
+      blocks.dots_dn(v, u) =
+          static_cast<float>(std::min(light.dot_dn, infrared_.saturation_dn - ambient_dn));
+      blocks.disparity_px(v, u) =
+          std::isfinite(aovs.depth_m(v, u)) ? fb / aovs.depth_m(v, u) : BlockLight::kNoDisparity;
+    }
+  }
+  return blocks;
+}
+
+float ParametricDepth::BesidesIn(const Phase& phase) const {
+  const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
+  const float whole = c2 * (phase.variance + pattern_mean_ * pattern_mean_);
+  const float matched = phase.match * phase.match;
+  return (whole + (1.0f - matched) * phase.variance) / (matched * phase.variance);
+}
+
+ParametricDepth::Match ParametricDepth::MatchAt(const BlockEvidence& block,
+                                                float disparity_px) const {
+  Match match;
+  if (block.evidence <= 0.0f) return match;
+  const float fraction = disparity_px - std::floor(disparity_px);
+  const Phase& phase =
+      phases_[std::min(static_cast<size_t>(fraction * kPhases), phases_.size() - 1)];
+  const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
+  const auto dark_variance =
+      static_cast<float>(infrared_.dark_noise_dn * infrared_.dark_noise_dn + 1.0 / 12.0);
+  const float smooth = pattern_mean_ * block.dots + block.ambient;
+  match.noise = dark_variance + static_cast<float>(infrared_.shot_noise_dn) * smooth;
+  match.step = std::max(0.0f, block.smooth2 - smooth * smooth);
+  match.variance =
+      (phase.variance + c2 * (phase.variance + pattern_mean_ * pattern_mean_)) * block.dots2 +
+      match.step + match.noise;
+  const float signal = phase.match * block.evidence;
+  match.explained = phase.variance * signal * signal;
+  match.correlation = std::sqrt(match.explained / match.variance);
+  match.strength = std::sqrt(block.dots2);
+  match.off_centre_px = static_cast<float>(scale_) * block.moment / block.evidence;
+  match.disparity_px = block.disparity / block.evidence;
+  return match;
+}
+
+float ParametricDepth::Measured(const Match& match, const Noise& noise) const {
+  // Fitted to PatternMatcher on walls: the search takes the best of several places around the right
+  // one, and blocks hold more or fewer dots.
+  constexpr float kBestOfSeveral = 0.5f;
+  constexpr float kSpread = 0.95f;
+  const float rho = match.correlation;
+  const float deviation = (1.0f - rho * rho) / std::sqrt(Pixels());
+  return std::min(1.0f, rho + deviation * (kBestOfSeveral + kSpread * noise.evidence));
+}
+
+float ParametricDepth::BestByChance(const Match& match, float enough, const Noise& noise) const {
+  // Two processes of autocorrelations r and r' correlate by chance with the variance Σ r r'/n:
+  // 1/n if one of them is white. Steps count as white, since dots are spread evenly.
+  const float excess =
+      match.variance > 0.0f ? (dots_chance_ - 1.0f) * match.explained / match.variance : 0.0f;
+  const double deviation = std::sqrt(static_cast<double>((1.0f + excess) / Pixels()));
+  return ChanceMatch{.deviation = deviation, .places = search_px_ / kPlaceWidth_px}.Best(
+      enough, noise.chance);
+}
+
+bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival,
+                                 const Noise& noise) const {
+  if (measured < static_cast<float>(matching_.least_correlation)) return false;
+  if (measured - rival < static_cast<float>(matching_.least_lead)) return false;
+  const float explained = measured * measured * match.variance;
+  const float unexplained = match.variance - explained - match.noise;
+  if (unexplained <= static_cast<float>(matching_.most_unexplained) * explained) return true;
+  // The centre's noise: that of a mean place over the block, weighted with noisy evidence.
+  const auto width = static_cast<float>(matching_.block_width_px);
+  const float by_noise_px =
+      std::sqrt(match.noise / match.explained) * width / std::sqrt(12.0f * Pixels());
+  const float spread_px = std::hypot(by_noise_px, static_cast<float>(noise_.lateral_noise_px));
+  return std::abs(match.off_centre_px + spread_px * noise.lateral) <=
+         static_cast<float>(matching_.most_off_centre) * width;
+}
+
+float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
+                            const Noise& noise) const {
+  // Clipped, the block has not even noise to match.
+  if (block.ambient >= static_cast<float>(infrared_.saturation_dn - 0.5)) return kNaN;
+  const float own_px = light.disparity_px(pixel);
+  const float strongest_px = block.strongest_disparity;
+  Match match = MatchAt(block, own_px);
+  float rival = -1.0f;
+  if (std::abs(strongest_px - own_px) > 1.0f) {
+    Match other = MatchAt(blocks_.At(light, pixel, strongest_px), strongest_px);
+    if (other.correlation > match.correlation) std::swap(match, other);
+    rival = other.correlation;
+  }
+  const float measured = Measured(match, noise);
+  // A better place counts from where it is accepted, and a worse one from where it is a rival.
+  const auto least = static_cast<float>(matching_.least_correlation);
+  const auto lead = static_cast<float>(matching_.least_lead);
+  const float chance = BestByChance(
+      match, measured < least ? std::max(least, measured + lead) : measured - lead, noise);
+  if (chance > measured) {
+    // Some other place fits better: anywhere.
+    if (!IsAccepted(match, chance, measured, noise)) return kNaN;
+    return static_cast<float>(search_px_ * NormalShare(static_cast<double>(noise.temporal)));
+  }
+  if (!IsAccepted(match, measured, std::max(rival, chance), noise)) return kNaN;
+  return match.disparity_px + DisparityError(match, measured, noise);
+}
+
+float ParametricDepth::DisparityError(const Match& match, float measured,
+                                      const Noise& noise) const {
+  // What blocks hold besides pattern and noise disturbs them as the laser's speckle does a whole
+  // one. Of a step in brightness, where an outline crosses, a quarter does: fitted, as is the root
+  // by which blocks have less noise that correlate better than they should.
+  constexpr float kOfStep = 0.25f;
+  const float besides = std::max(
+      0.0f, match.variance - match.explained - match.noise - (1.0f - kOfStep) * match.step);
+  const float disturbed = std::sqrt(besides / (match.explained * whole_besides_));
+  const float noisy =
+      std::sqrt(match.noise * std::min(1.0f, match.correlation / measured)) / match.strength;
+  return static_cast<float>(noise_.fixed_disparity_noise_px) * disturbed * noise.fixed +
+         static_cast<float>(noise_.temporal_disparity_noise_px) * noisy * noise.temporal;
+}
+
+ExplainedDepth ParametricDepth::Observe(const RayCaster& caster, const Lighting& lighting,
+                                        const Pose& X_WB, double unit_m, const RandomStream& shot,
+                                        const RandomStream& image_noise) const {
+  const AovImages aovs = rays_.CastAovs(caster, X_WB, lighting, p_CP_);
+  const BlockLight light = LightOf(aovs);
+  const cv::Size size = aovs.depth_m.size();
+  const cv::Size block(2 * blocks_.reach_u() + 1, 2 * blocks_.reach_v() + 1);
+  const cv::Mat1f evidence = BlockNoise(image_noise.Child("evidence"), size, block);
+  const cv::Mat1f lateral = BlockNoise(image_noise.Child("lateral"), size, block);
+  const cv::Mat1f chance = BlockNoise(image_noise.Child("chance"), size, block);
+  const cv::Mat1f fixed = BlockNoise(shot.Child("laser_speckle"), size, block);
+  const cv::Mat1f temporal = BlockNoise(image_noise.Child("disparity"), size, block);
+  const MissingReturn missing(infrared_, matching_, range_, rays_.camera(), p_CP_);
+  const cv::Size reach(matching_.block_width_px / 2, matching_.block_height_px / 2);
+  ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
+                        .no_return = cv::Mat1b::zeros(size)};
+  for (int v = 0; v < size.height; ++v) {
+    const std::vector<BlockEvidence> row = blocks_.Row(light, v);
+    for (int u = 0; u < size.width; ++u) {
+      const cv::Point pixel(u, v);
+      // Blocks leave the image where those of the whole infra-red image do.
+      const bool is_inside = Covers(size, blocks_.reach_u(), blocks_.reach_v(), u, v, 1.0) &&
+                             Covers(size, reach.width, reach.height, u, v, scale_);
+      NoReturn reason = NoReturn::kNone;
+      double z_m = 0.0;
+      if (!std::isfinite(aovs.depth_m(pixel))) {
+        reason = NoReturn::kNoSurface;
+      } else if (!is_inside) {
+        reason = NoReturn::kBorder;
+      } else {
+        const float disparity_px =
+            Read(light, row[static_cast<size_t>(u - blocks_.reach_u())], pixel,
+                 {.evidence = evidence(pixel),
+                  .lateral = lateral(pixel),
+                  .chance = chance(pixel),
+                  .fixed = fixed(pixel),
+                  .temporal = temporal(pixel)});
+        if (std::isfinite(disparity_px)) {
+          z_m = range_.Depth(static_cast<double>(disparity_px));
+          if (z_m == 0.0) reason = NoReturn::kRange;
+        } else {
+          reason = missing.Reason(aovs, pixel);
+        }
+      }
+      result.depth.raw(pixel) = static_cast<uint16_t>(std::lround(z_m / unit_m));
+      result.no_return(pixel) = static_cast<unsigned char>(reason);
+    }
+  }
+  return result;
+}
+
+}  // namespace fenestra

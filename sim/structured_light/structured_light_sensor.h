@@ -1,0 +1,112 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <variant>
+
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
+#include "core/random/random_stream.h"
+#include "renderers/ray_caster.h"
+#include "sim/camera/color_camera.h"
+#include "sim/structured_light/depth_frame.h"
+#include "sim/structured_light/depth_registrar.h"
+#include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/matched_depth.h"
+#include "sim/structured_light/parametric_depth.h"
+#include "sim/truth/ground_truth.h"
+#include "sim/truth/truth_images.h"
+
+namespace fenestra {
+
+/// How depth comes about.
+enum class DepthModel {
+  kParametric,  ///< From what windows would hold, by formulae; see ParametricDepth. Fast.
+  kMatched,     ///< An infra-red image of the dots, searched for the pattern; see MatchedDepth.
+};
+
+/// A Kinect-like sensor: colour camera, infra-red depth camera, and a projector of dots.
+/// Figures: Microsoft Kinect SDK 1.8 constants, ROS kinect_calibration/technical, Khoshelham &
+/// Elberink 2012, Landau 2015.
+struct StructuredLightOptions {
+  int depth_width_px = 320;
+  int depth_height_px = 240;
+  double depth_focal_px = 285.63;       ///< At 320 x 240; MS SDK 1.8.
+  double color_offset_m = 0.025;        ///< Colour camera right (+x) of the depth camera.
+  double projector_baseline_m = 0.075;  ///< Projector right (+x) of the depth camera.
+
+  /// Motion of frame B while images are taken. Truth is that of X_WB: where the rig is when the
+  /// middle rows of depth and colour image are exposed.
+  RigMotion motion;
+  /// Rolling shutter of the infra-red camera, an MT9M001: from the first row of the image to the
+  /// last. Assumed: 1049 rows' times, blanking included, in 1/30 s, and 960 of them in the image.
+  /// The exposure is taken to be short.
+  double infrared_readout_s = 30.5e-3;
+
+  bool near_mode = false;  ///< 0.4–3.0 m instead of 0.8–4.0 m (MS SDK).
+
+  DepthModel depth_model = DepthModel::kParametric;
+  InfraredOptions infrared;
+  ParametricDepthOptions parametric;
+  PatternMatchingOptions matching;  ///< Of both models.
+  /// Width of the infra-red image in which kMatched matches: a multiple of the depth image's. Depth
+  /// pixels are those of every so many columns and rows.
+  int infrared_width_px = 640;
+  /// Quantum of the disparity, in pixels of a 640-wide image: 1/8 px (ROS
+  /// kinect_calibration/technical) in OpenNI's drivers; 1/16 px, by the levels of its depth table,
+  /// in the Microsoft SDK's. 0: none.
+  double disparity_step_px = 0.125;
+  /// Depth images at 30 Hz that are averaged, the last of them in time with the colour image, each
+  /// with its own noise: the mean of the returns of pixels with a return in at least half of them.
+  int averaged_frames = 1;
+  /// Whether the depth image is delivered as the colour camera would see it (DepthRegistrar), in as
+  /// many pixels as before.
+  bool registered_depth = false;
+
+  ColorCameraOptions color;
+  int edge_samples_per_pixel = 64;
+};
+
+/// Throws InputError with all faults.
+void Validate(const StructuredLightOptions& options);
+
+/// A structured-light sensor. Frame B is the infra-red camera, whose pixels the depth image has
+/// unless it is registered.
+class StructuredLightSensor {
+ public:
+  explicit StructuredLightSensor(const StructuredLightOptions& options);
+
+  const StructuredLightOptions& options() const { return options_; }
+  const RgbdCalibration& nominal() const { return nominal_; }
+
+  /// The camera whose pixels the depth image has, and the colour camera.
+  Pose X_WD(const Pose& X_WB) const;
+  Pose X_WK(const Pose& X_WB) const;
+
+  RgbdObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                          const RandomStream& shot) const;
+  GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
+  /// Of the depth camera.
+  TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
+
+  /// The depth image with its reasons; Observe's depth is the same.
+  ExplainedDepth ObserveDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                              const RandomStream& shot) const;
+
+ private:
+  /// As the infra-red camera sees it.
+  ExplainedDepth AverageDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                              const RandomStream& shot) const;
+  ExplainedDepth OneImage(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                          const RandomStream& shot, const RandomStream& image_noise) const;
+
+  StructuredLightOptions options_;
+  RgbdCalibration nominal_;
+  std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const MatchedDepth>>
+      depth_model_;
+  ColorCamera color_;
+  RayGrid depth_rays_;  ///< Of the depth image.
+  std::optional<DepthRegistrar> registrar_;
+};
+
+}  // namespace fenestra

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/geometry/camera_model.h"
+#include "core/geometry/pose.h"
+#include "scenes/scene.h"
+
+namespace fenestra {
+
+/// A window as it truly stands before the scored camera C.
+struct WindowTruth {
+  Eigen::Vector3d p_CO;
+  std::array<Eigen::Vector3d, 4> p_CV;  ///< Top left, top right, bottom right, bottom left.
+  Eigen::Vector3d normal_C;             ///< Out of the wall.
+  double width_m;
+  double height_m;
+};
+
+/// What is true of one observation. C is the true, unrectified left camera (stereo) or the true
+/// camera that the depth image's pixels belong to (RGB-D).
+struct GroundTruth {
+  Pose X_WC;
+  std::optional<WindowTruth> target;
+  std::vector<WindowTruth> other_windows;
+  /// Whether the target's front outer rectangle is seen from its front and lies wholly inside
+  /// every image of the observation. False without a target.
+  bool in_view = false;
+};
+
+WindowTruth TruthOf(const TargetWindow& window, const Pose& X_WC);
+
+/// A camera where it truly stands.
+struct PlacedCamera {
+  CameraModel camera;
+  Pose X_WC;
+};
+
+/// The truth for the scored camera at X_WC; `cameras` are all whose images the target must be in.
+GroundTruth MakeGroundTruth(const Scene& scene, const Pose& X_WC,
+                            std::span<const PlacedCamera> cameras);
+
+}  // namespace fenestra

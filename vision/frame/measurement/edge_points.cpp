@@ -1,0 +1,119 @@
+#include "vision/frame/measurement/edge_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "vision/frame/measurement/edge_strips.h"
+#include "vision/frame/measurement/edge_tuning.h"
+
+namespace fenestra {
+namespace {
+
+// What the model of lens and light is worth, for a whole side: what blur that varies across an edge
+// and pixels that are no perfect squares leave, where noise does not hide it.
+constexpr double kModelSigma_px = 0.0004;
+// Residuals of more than this many times the side's median variance are of something else.
+constexpr double kMostExcess = 9.0;
+constexpr double kOwnExcess = 2.0;
+
+double MedianSquare(const std::vector<StepFit>& fits) {
+  std::vector<double> squares;
+  for (const StepFit& fit : fits) squares.push_back(fit.mean_square);
+  const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
+  std::nth_element(squares.begin(), middle, squares.end());
+  return *middle;
+}
+
+// Relative change of the light across an edge, outwards [1/px].
+double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetting& vignetting) {
+  const CameraParameters& p = camera.parameters();
+  const Eigen::Vector2d focal_px(p.fx_px, p.fy_px);
+  const Eigen::Vector2d tangent =
+      (strip.pixel - Eigen::Vector2d(p.cx_px, p.cy_px)).cwiseQuotient(focal_px);
+  return -vignetting.power * tangent.dot(strip.normal.cwiseQuotient(focal_px)) /
+         (1.0 + tangent.squaredNorm());
+}
+
+// What lens and light are like in the middle of a side: of two strips where their number is even,
+// so that it does not matter which end they are counted from.
+struct Middle {
+  Eigen::Vector2d normal;
+  double falloff;
+};
+Middle MiddleOf(const CameraModel& camera, const std::vector<EdgeStrip>& strips,
+                const Vignetting& vignetting) {
+  const EdgeStrip& a = strips[(strips.size() - 1) / 2];
+  const EdgeStrip& b = strips[strips.size() / 2];
+  return {.normal = (a.normal + b.normal).normalized(),
+          .falloff = 0.5 * (Falloff(camera, a, vignetting) + Falloff(camera, b, vignetting))};
+}
+
+// Strips with an edge, and their edges.
+struct Fitted {
+  std::vector<EdgeStrip> strips;
+  std::vector<StepFit> fits;
+  double median_square = 0.0;
+};
+
+Fitted FitAll(const StepModel& model, std::vector<EdgeStrip> strips) {
+  Fitted all;
+  for (EdgeStrip& strip : strips) {
+    if (const auto fit = model.Fit(strip)) {
+      all.fits.push_back(*fit);
+      all.strips.push_back(std::move(strip));
+    }
+  }
+  if (all.fits.empty()) return all;
+  all.median_square = MedianSquare(all.fits);
+  Fitted good;
+  good.median_square = all.median_square;
+  for (size_t i = 0; i < all.fits.size(); ++i) {
+    if (all.fits[i].mean_square > kMostExcess * all.median_square) continue;
+    good.fits.push_back(all.fits[i]);
+    good.strips.push_back(std::move(all.strips[i]));
+  }
+  return good;
+}
+
+}  // namespace
+
+SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const SideRequest& asked,
+                      const EdgeTuning& tuning) {
+  SideRequest request = asked;
+  if (!tuning.is_even) request.far_px = request.reach_px;
+  SideEdges edges;
+  edges.tuning = tuning;
+  EdgeStrips cut = CutStrips(view, frame, request);
+  edges.places = cut.places;
+  if (cut.strips.empty()) return edges;
+  const Middle middle = MiddleOf(view.camera, cut.strips, request.vignetting);
+  const StepModel model(request, tuning, middle.normal);
+  const Fitted fitted = FitAll(model, std::move(cut.strips));
+  if (fitted.fits.empty()) return edges;
+  const Learnt learnt =
+      Learn(model, fitted.strips, fitted.fits,
+            {.excess = fitted.median_square, .falloff = middle.falloff}, request, tuning);
+  if (!learnt.tuning.is_even && request.far_px > request.reach_px) {
+    EdgeTuning uneven = tuning;
+    uneven.is_even = false;
+    return MeasureSide(view, frame, request, uneven);
+  }
+  for (size_t i = 0; i < fitted.fits.size(); ++i) {
+    const StepFit& fit = fitted.fits[i];
+    const EdgeStrip& strip = fitted.strips[i];
+    const double scale = fit.mean_square > kOwnExcess * fitted.median_square ? fit.mean_square
+                                                                             : fitted.median_square;
+    edges.points.push_back({.side = request.side,
+                            .border = request.border,
+                            .share = strip.share,
+                            .normal = strip.normal,
+                            .pixel = strip.pixel + fit.s0_px * strip.normal,
+                            .sigma_px = std::sqrt(scale * fit.s0_variance),
+                            .common_sigma_px = std::hypot(learnt.common_sigma_px, kModelSigma_px)});
+  }
+  edges.tuning = learnt.tuning;
+  return edges;
+}
+
+}  // namespace fenestra

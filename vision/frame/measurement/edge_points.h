@@ -1,0 +1,20 @@
+#pragma once
+
+#include "vision/frame/measurement/side_request.h"
+
+namespace fenestra {
+
+/// Locates the edge along a side of the frame, near the place where the assumed frame predicts it.
+/// The side is cut into strips (edge_strips.h), and a step is fitted to all pixels of each strip
+/// (step_fit.h). A pixel's weight is the inverse of its variance, which changes from that of the
+/// dark side to that of the bright side with P. The variance of s0 is that of the fit, scaled by
+/// the mean square of the residuals: by its median over the side's strips, since a single strip has
+/// few pixels, or by the strip's own value where that is more than twice the median. Strips without
+/// such an edge are left out.
+///
+/// Pixels far from the edge are included because in a few pixels near it, a gradient of the light
+/// is hardly distinguishable from a shift of the edge.
+SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame,
+                      const SideRequest& request, const EdgeTuning& tuning);
+
+}  // namespace fenestra

@@ -1,0 +1,93 @@
+#include "vision/frame/measurement/edge_strips.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fenestra {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kLength_px = 8.0;
+constexpr int kFewest = 3;
+constexpr int kMost = 40;
+constexpr int kFewestCoarse = 30;
+
+// Upright box around a strip from `inside_px` on one side of the edge to `outside_px` on the other.
+cv::Rect BoxOf(const EdgeStrip& strip, double half_length_px, double inside_px, double outside_px) {
+  const Vector2d middle = strip.pixel + 0.5 * (outside_px - inside_px) * strip.normal;
+  const Vector2d along(-strip.normal.y(), strip.normal.x());
+  const Vector2d extent =
+      0.5 * (outside_px + inside_px) * strip.normal.cwiseAbs() + half_length_px * along.cwiseAbs();
+  const cv::Point first(static_cast<int>(std::ceil(middle.x() - extent.x())),
+                        static_cast<int>(std::ceil(middle.y() - extent.y())));
+  const cv::Point end(static_cast<int>(std::floor(middle.x() + extent.x())) + 1,
+                      static_cast<int>(std::floor(middle.y() + extent.y())) + 1);
+  return {first, end};
+}
+
+// Empty if one of the near pixels is outside the image.
+std::vector<StripPixel> Gather(const cv::Mat1b& image, const EdgeStrip& strip,
+                               double half_length_px, const SideRequest& request) {
+  std::vector<StripPixel> pixels;
+  const cv::Rect whole({0, 0}, image.size());
+  const cv::Rect near = BoxOf(strip, half_length_px, request.reach_px, request.reach_px);
+  if ((near & whole) != near) return pixels;
+  const cv::Rect box =
+      BoxOf(strip, half_length_px, request.inside_px(), request.outside_px()) & whole;
+  const Vector2d along(-strip.normal.y(), strip.normal.x());
+  pixels.reserve(static_cast<size_t>(box.area()));
+  for (int v = box.y; v < box.br().y; ++v) {
+    const uchar* row = image.ptr(v);
+    for (int u = box.x; u < box.br().x; ++u) {
+      const Vector2d offset = Vector2d(u, v) - strip.pixel;
+      const double s = offset.dot(strip.normal);
+      if (s > request.outside_px() || s < -request.inside_px()) continue;
+      if (std::abs(offset.dot(along)) > half_length_px) continue;
+      pixels.push_back({s, static_cast<double>(row[u])});
+    }
+  }
+  return pixels;
+}
+
+bool IsCut(int i, int count, const SideRequest& request) {
+  if (!request.coarse || count < kFewestCoarse) return true;
+  const int from_middle = std::abs(2 * i - (count - 1));  // In half strips.
+  return from_middle % 6 == (count % 2 == 1 ? 0 : 3);
+}
+
+}  // namespace
+
+EdgeStrips CutStrips(const CameraView& view, const FrameRectangle& frame,
+                     const SideRequest& request) {
+  const auto pixel_at = [&](double share) {
+    return view.camera.Project(view.X_CL * frame.PointOn(request.side, request.border, share));
+  };
+  EdgeStrips cut;
+  const auto first = pixel_at(0.0);
+  const auto last = pixel_at(1.0);
+  if (!first || !last) return cut;
+  const double length_px = (*last - *first).norm();
+  const double margin = (request.reach_px + 1.0) / std::max(1.0, length_px);
+  const double usable = 1.0 - 2.0 * margin;
+  if (usable * length_px < kFewest * 2.0) return cut;
+  const int count = std::clamp(static_cast<int>(usable * length_px / kLength_px), kFewest, kMost);
+  const double step = usable / count;
+  for (int i = 0; i < count; ++i) {
+    if (!IsCut(i, count, request)) continue;
+    const double share = margin + (i + 0.5) * step;
+    const auto from = pixel_at(share - 0.5 * step);
+    const auto to = pixel_at(share + 0.5 * step);
+    const auto middle = pixel_at(share);
+    if (!from || !to || !middle) continue;
+    ++cut.places;
+    const Vector2d along = (*to - *from).normalized();
+    EdgeStrip strip{
+        .share = share, .pixel = *middle, .normal = {along.y(), -along.x()}, .pixels = {}};
+    strip.pixels = Gather(view.image, strip, 0.5 * (*to - *from).norm(), request);
+    if (strip.pixels.size() >= 8) cut.strips.push_back(std::move(strip));
+  }
+  return cut;
+}
+
+}  // namespace fenestra

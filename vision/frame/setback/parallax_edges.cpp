@@ -1,0 +1,182 @@
+#include "vision/frame/setback/parallax_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "vision/frame/measurement/side_profile.h"
+
+namespace fenestra {
+namespace {
+
+constexpr double kFrom_px = -10.0;
+constexpr double kStep_px = 0.5;
+constexpr double kMostInset = 0.3;  // Of the frame's width.
+constexpr double kNearestEdge_m = -0.15;
+constexpr double kDeepestEdge_m = 0.25;
+constexpr int kHalfStep = 2;    // A pixel on either side of an edge.
+constexpr int kHalfWindow = 4;  // What is alike around an edge: 2 px.
+// An edge stands out from those whose blur is in its window.
+constexpr int kAlone = kHalfWindow + kHalfStep;
+constexpr double kLeastRise_dn = 1.0;
+constexpr double kLeastSigmas = 5.0;
+constexpr double kAlike = 0.9;
+// What blur, rounding and interpolation leave where noise does not hide it.
+constexpr double kModel_px = 0.02;
+// The same where another edge is near, at another depth for all that is known.
+constexpr double kCrowded_px = 0.15;
+constexpr double kCrowding = 0.25;  // Of the edge's own rise.
+
+struct Eye {
+  double inwards_m;   // h
+  double distance_m;  // z
+};
+
+Eye EyeOf(const CameraView& view, const FrameRectangle& frame, Side side) {
+  const Eigen::Vector3d p_OC =
+      frame.R_LO.transpose() * (view.X_CL.inverse().translation() - frame.p_LO);
+  const double across = side == Side::kLeft ? p_OC.x() : -p_OC.x();
+  return {0.5 * frame.width_m + across, p_OC.z()};
+}
+
+struct Place {
+  double inset_m;
+  double behind_m;
+};
+
+Place PlaceOf(const Eye& first, const Eye& second, double t0, double t1) {
+  const double a0 = (first.inwards_m - t0) / first.distance_m;
+  const double a1 = (second.inwards_m - t1) / second.distance_m;
+  const double behind_m = (t1 - t0) / (a1 - a0);
+  return {t0 - a0 * behind_m, behind_m};
+}
+
+// Where the second view sees what the first sees at t0, if it is so far behind the front.
+double SeenBySecond(const Eye& first, const Eye& second, double t0, double behind_m) {
+  const double inset_m = t0 - (first.inwards_m - t0) / first.distance_m * behind_m;
+  return (inset_m * second.distance_m + second.inwards_m * behind_m) /
+         (second.distance_m + behind_m);
+}
+
+double Rise(const SideProfile& profile, int i) {
+  return profile.Grey(i + kHalfStep) - profile.Grey(i - kHalfStep);
+}
+
+bool IsEdge(const SideProfile& profile, int i) {
+  const double rise = std::abs(Rise(profile, i));
+  const double noise = std::sqrt(profile.Variance(i - kHalfStep) + profile.Variance(i + kHalfStep));
+  if (rise < std::max(kLeastRise_dn, kLeastSigmas * noise)) return false;
+  for (int k = -kAlone; k <= kAlone; ++k) {
+    const double other = std::abs(Rise(profile, i + k));
+    if (other > rise || (other == rise && k < 0)) return false;
+  }
+  return true;
+}
+
+// Whether another edge begins just beyond the window, inwards (+1) or outwards (-1).
+bool IsCrowded(const SideProfile& profile, int i, int direction) {
+  const double least = kCrowding * std::abs(Rise(profile, i));
+  for (int k = kHalfWindow + 1; k <= kAlone + kHalfWindow; ++k) {
+    if (std::abs(Rise(profile, i + direction * k)) > least) return true;
+  }
+  return false;
+}
+
+// 1 for two windows that differ by a constant.
+double Likeness(const SideProfile& a, int i, const SideProfile& b, int j) {
+  double mean_a = 0.0;
+  double mean_b = 0.0;
+  for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
+    mean_a += a.Grey(i + k) / (2 * kHalfWindow + 1);
+    mean_b += b.Grey(j + k) / (2 * kHalfWindow + 1);
+  }
+  double squares = 1e-9;
+  double product = 0.0;
+  for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
+    const double in_a = a.Grey(i + k) - mean_a;
+    const double in_b = b.Grey(j + k) - mean_b;
+    squares += in_a * in_a + in_b * in_b;
+    product += in_a * in_b;
+  }
+  return 2.0 * product / squares;
+}
+
+// The place in `b`, from `low` to `high`, that is most like place i of `a`, by a parabola.
+std::optional<double> MostAlike(const SideProfile& a, int i, const SideProfile& b, int low,
+                                int high) {
+  low = std::max(low, kHalfWindow + 1);
+  high = std::min(high, b.size() - kHalfWindow - 2);
+  double best = kAlike;
+  std::optional<int> where;
+  for (int j = low; j <= high; ++j) {
+    const double likeness = Likeness(a, i, b, j);
+    if (likeness <= best) continue;
+    best = likeness;
+    where = j;
+  }
+  if (!where || *where == low || *where == high) return std::nullopt;
+  const double before = Likeness(a, i, b, *where - 1);
+  const double after = Likeness(a, i, b, *where + 1);
+  return *where + 0.5 * (before - after) / std::min(-1e-12, before - 2.0 * best + after);
+}
+
+// Standard deviation of the shift between two windows, in steps.
+double SigmaOfShift(const SideProfile& a, int i, const SideProfile& b, int j) {
+  double information = 1e-12;
+  for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
+    const double slope = 0.5 * (a.Grey(i + k + 1) - a.Grey(i + k - 1));
+    // Neighbours share pixels.
+    information += kStep_px * slope * slope / (a.Variance(i + k) + b.Variance(j + k));
+  }
+  return std::hypot(1.0 / std::sqrt(information), kModel_px / kStep_px);
+}
+
+}  // namespace
+
+std::vector<ParallaxEdge> FindParallaxEdges(const CameraView& first, const CameraView& second,
+                                            const FrameRectangle& frame, Side side) {
+  const Eye eye = EyeOf(first, frame, side);
+  const Eye other = EyeOf(second, frame, side);
+  const double pixel_m = PixelAcross(first, frame, side);
+  if (!(eye.distance_m > 0.0 && other.distance_m > 0.0 && pixel_m > 0.0)) return {};
+  ProfileGrid grid{.first_m = kFrom_px * pixel_m, .step_m = kStep_px * pixel_m, .count = 0};
+  grid.count = static_cast<int>((kMostInset * frame.width_m - grid.first_m) / grid.step_m);
+  const SideProfile a = ProfileAcross(first, frame, side, grid);
+  const SideProfile b = ProfileAcross(second, frame, side, grid);
+  std::vector<ParallaxEdge> edges;
+  const int margin = kAlone + kHalfWindow + kHalfStep;
+  for (int i = margin; i + margin < grid.count; ++i) {
+    if (!IsEdge(a, i)) continue;
+    const double t0 = grid.InsetAt(i);
+    const auto index = [&](double behind_m) {
+      return (SeenBySecond(eye, other, t0, behind_m) - grid.first_m) / grid.step_m;
+    };
+    const auto [low, high] = std::minmax({index(kNearestEdge_m), index(kDeepestEdge_m)});
+    const auto found = MostAlike(a, i, b, static_cast<int>(std::floor(low)) - 1,
+                                 static_cast<int>(std::ceil(high)) + 1);
+    if (!found) continue;
+    const Place place = PlaceOf(eye, other, t0, grid.InsetAt(*found));
+    const double by_step =
+        std::abs(PlaceOf(eye, other, t0, grid.InsetAt(*found + 1.0)).behind_m - place.behind_m);
+    // False for what is no number, too.
+    if (!(std::isfinite(by_step) && place.behind_m > 1.5 * kNearestEdge_m &&
+          place.behind_m < 1.5 * kDeepestEdge_m)) {
+      continue;
+    }
+    const bool is_crowded_outside = IsCrowded(a, i, -1);
+    const bool is_crowded = is_crowded_outside || IsCrowded(a, i, 1);
+    edges.push_back(
+        {.side = side,
+         .seen_inset_m = t0,
+         .inset_m = place.inset_m,
+         .behind_m = place.behind_m,
+         .sigma_m = by_step * SigmaOfShift(a, i, b, static_cast<int>(std::lround(*found))),
+         .crowding_m = is_crowded ? by_step * kCrowded_px / kStep_px : 0.0,
+         .rise_dn = Rise(a, i),
+         .is_crowded_outside = is_crowded_outside,
+         .is_looked_across = eye.inwards_m < place.inset_m});
+  }
+  return edges;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,106 @@
+#include "vision/rgbd/paper/dominant_plane.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace fenestra {
+namespace {
+
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr int kTriples = 100;
+constexpr size_t kScoredPoints = 1000;
+// A plane closer to the camera's centre than this is seen edge on.
+constexpr double kClosestPlaneM = 1e-6;
+
+std::optional<Plane> Oriented(const Eigen::Vector3d& normal_K, const Eigen::Vector3d& p_KQ) {
+  const double offset_m = normal_K.dot(p_KQ);
+  if (!normal_K.allFinite() || !(std::abs(offset_m) > kClosestPlaneM)) return std::nullopt;
+  if (offset_m < 0.0) return Plane{normal_K, offset_m};
+  return Plane{-normal_K, -offset_m};
+}
+
+std::optional<Plane> Through(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                             const Eigen::Vector3d& c) {
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  if (!(normal.norm() > 1e-12)) return std::nullopt;
+  return Oriented(normal.normalized(), a);
+}
+
+bool IsOn(const Plane& plane, const PlaneTolerance& tolerance, const Eigen::Vector3d& p_KQ) {
+  return std::abs(plane.SignedDistance(p_KQ)) <= tolerance.At(p_KQ.z());
+}
+
+Points Inliers(const Points& points_K, const Plane& plane, const PlaneTolerance& tolerance) {
+  Points inliers;
+  std::copy_if(points_K.begin(), points_K.end(), std::back_inserter(inliers),
+               [&](const Eigen::Vector3d& p_KQ) { return IsOn(plane, tolerance, p_KQ); });
+  return inliers;
+}
+
+std::optional<Plane> LeastSquares(const Points& points_K) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& p_KQ : points_K) mean += p_KQ;
+  mean /= static_cast<double>(points_K.size());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& p_KQ : points_K) {
+    scatter += (p_KQ - mean) * (p_KQ - mean).transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+  // Points on a line have two vanishing eigenvalues.
+  if (!(solver.eigenvalues()(1) > 1e-12 * solver.eigenvalues()(2))) return std::nullopt;
+  return Oriented(solver.eigenvectors().col(0), mean);
+}
+
+Points EvenlySpaced(const Points& points_K) {
+  const size_t stride = (points_K.size() + kScoredPoints - 1) / kScoredPoints;
+  Points spaced;
+  for (size_t i = 0; i < points_K.size(); i += std::max<size_t>(stride, 1)) {
+    spaced.push_back(points_K[i]);
+  }
+  return spaced;
+}
+
+}  // namespace
+
+Eigen::Vector2d Plane::Coordinates(const Eigen::Vector3d& p_KQ) const {
+  // x: the camera's +x axis laid into the plane, or its +y axis where the plane is seen along x.
+  const bool along_x = std::abs(normal_K.x()) > 0.9;
+  const Eigen::Vector3d axis = along_x ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d right = (axis - normal_K.dot(axis) * normal_K).normalized();
+  const Eigen::Vector3d down = -normal_K.cross(right);
+  return {right.dot(p_KQ), down.dot(p_KQ)};
+}
+
+std::optional<Plane> DominantPlane(const Points& points_K, const PlaneTolerance& tolerance,
+                                   const RandomStream& triples) {
+  const Points scored = EvenlySpaced(points_K);
+  if (scored.size() < 3) return std::nullopt;
+  const auto draw = [&](int index) -> const Eigen::Vector3d& {
+    const double u = triples.Uniform(static_cast<uint64_t>(index));
+    return scored[static_cast<size_t>(u * static_cast<double>(scored.size()))];
+  };
+  std::vector<double> tolerances_m;
+  for (const Eigen::Vector3d& p_KQ : scored) tolerances_m.push_back(tolerance.At(p_KQ.z()));
+  std::optional<Plane> best;
+  int most = 0;
+  for (int i = 0; i < kTriples; ++i) {
+    const auto plane = Through(draw(3 * i), draw(3 * i + 1), draw(3 * i + 2));
+    if (!plane) continue;
+    int inliers = 0;
+    for (size_t j = 0; j < scored.size(); ++j) {
+      inliers += std::abs(plane->SignedDistance(scored[j])) <= tolerances_m[j] ? 1 : 0;
+    }
+    if (inliers > most) {
+      most = inliers;
+      best = plane;
+    }
+  }
+  if (!best) return std::nullopt;
+  return LeastSquares(Inliers(points_K, *best, tolerance));
+}
+
+}  // namespace fenestra

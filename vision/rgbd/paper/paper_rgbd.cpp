@@ -1,0 +1,232 @@
+#include "vision/rgbd/paper/paper_rgbd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/input_error.h"
+#include "vision/rgbd/depth_picture.h"
+#include "vision/rgbd/paper/crossing_covariance.h"
+#include "vision/rgbd/paper/frame_vertices.h"
+#include "vision/rgbd/paper/narf_key_points.h"
+#include "vision/rgbd/paper/opening.h"
+#include "vision/rgbd/paper/paper_pictures.h"
+#include "vision/rgbd/paper/vertices.h"
+
+namespace fenestra {
+namespace {
+
+// The sampling of planes is part of the detector: the same for every observation.
+constexpr uint64_t kPlaneSeed = 1;
+
+RgbdCalibration Checked(const RgbdCalibration& calibration) {
+  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
+    throw InputError("depth_unit_m",
+                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
+  }
+  const CameraModel working = WorkingCamera(calibration);
+  if (!NarfRangeImage::Supports(working)) {
+    throw InputError(
+        "color", fmt::format("a horizontal field of {:.1f} deg; NARF's planar range "
+                             "image needs less than 90 deg",
+                             2.0 * 180.0 / M_PI *
+                                 std::atan(0.5 * working.width_px() / working.parameters().fx_px)));
+  }
+  return calibration;
+}
+
+// Parts of a cloud that are searched on their own; each costs a NARF.
+constexpr size_t kMostParts = 8;
+// Key points lie up to this share of a side inside of its ends.
+constexpr double kSideShare = 0.25;
+
+FourVertices VerticesOf(const std::vector<KeyPoint>& key_points, const std::array<int, 4>& chosen) {
+  FourVertices p_KV;
+  for (size_t i = 0; i < 4; ++i) p_KV[i] = key_points[static_cast<size_t>(chosen[i])].p_KQ;
+  return p_KV;
+}
+
+std::vector<Eigen::Vector3f> CloudInDepthFrame(const DarkCloud& cloud, const Pose& X_DK) {
+  std::vector<Eigen::Vector3f> points_D;
+  for (const Eigen::Vector3d& p_KQ : cloud.points_K) {
+    points_D.push_back((X_DK * p_KQ).cast<float>());
+  }
+  return points_D;
+}
+
+std::optional<Miss> CloudFault(const DarkCloud& cloud, const PaperRgbdOptions& options) {
+  if (cloud.dark_pixels == 0) {
+    return Miss{"no_dark_pixels",
+                options.prior.knows_color()
+                    ? "no pixel has the expected colour"
+                    : fmt::format("no pixel is below {} in all channels", options.dark_below_dn)};
+  }
+  const std::string counts = fmt::format("{} dark pixels, {} of them with depth", cloud.dark_pixels,
+                                         cloud.points_K.size());
+  if (cloud.points_K.empty()) return Miss{"no_depth_on_dark_pixels", counts};
+  if (static_cast<int>(cloud.points_K.size()) < options.min_cloud_points) {
+    return Miss{"cloud_too_small",
+                fmt::format("{}; {} are needed", counts, options.min_cloud_points)};
+  }
+  return std::nullopt;
+}
+
+// Ends the running stage however Detect is left.
+class StageEnd {
+ public:
+  explicit StageEnd(StageLog& log) : log_(log) {}
+  ~StageEnd() { log_.End(); }
+  StageEnd(const StageEnd&) = delete;
+  StageEnd& operator=(const StageEnd&) = delete;
+
+ private:
+  StageLog& log_;
+};
+
+}  // namespace
+
+PlaneTolerance ToleranceOf(const PaperRgbdOptions& options) {
+  return {.fixed_m = options.plane_tolerance_m, .per_z2 = options.plane_tolerance_per_m};
+}
+
+int RangeImageStride(const CameraModel& camera, const PaperRgbdOptions& options) {
+  return (camera.width_px() + options.max_range_image_width_px - 1) /
+         options.max_range_image_width_px;
+}
+
+double SupportSize(const CloudShape& shape, const CameraModel& camera,
+                   const PaperRgbdOptions& options) {
+  if (options.support_size_m > 0.0) return options.support_size_m;
+  const double px_per_m =
+      camera.parameters().fx_px / (RangeImageStride(camera, options) * shape.median_depth_m);
+  return std::min(options.support_fraction * std::sqrt(shape.hull_area_m2),
+                  options.max_support_px / px_per_m);
+}
+
+PaperRgbdDetector::PaperRgbdDetector(const RgbdCalibration& calibration,
+                                     const PaperRgbdOptions& options)
+    : calibration_(Checked(calibration)), options_(options), registration_(calibration) {
+  Validate(options_);
+}
+
+Detection PaperRgbdDetector::Detect(const Observation& observation, StageLog& log) const {
+  const auto* images = std::get_if<RgbdObservation>(&observation);
+  if (images == nullptr) {
+    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
+  }
+  const PictureView view{registration_.working_camera(), calibration_.X_KD};
+  const StageEnd stage_end(log);
+  log.Begin("register");
+  const RegisteredImages registered = registration_.Register(*images);
+  log.Picture("registered_depth", [&] { return DrawDepth(registered.depth_m); }, {view});
+
+  log.Begin("segment");
+  const DarkCloud cloud = Segment(registered);
+  log.Picture("segmentation", [&] { return DrawSegmentation(registered, cloud); }, {view});
+  log.Cloud("cloud", [&] { return CloudInDepthFrame(cloud, calibration_.X_KD.inverse()); });
+  if (const auto fault = CloudFault(cloud, options_)) return *fault;
+  const std::vector<DarkCloud> parts = Split(cloud);
+  if (parts.empty()) return Miss{"cloud_too_small", "no connected part has enough points"};
+  std::vector<WindowEstimate> found;
+  std::optional<Miss> first_miss;
+  for (const DarkCloud& part : parts) {
+    const Detection one = FindFrame(part, log, found.empty() && !first_miss);
+    if (const auto* estimate = std::get_if<WindowEstimate>(&one)) {
+      found.push_back(*estimate);
+    } else if (!first_miss) {
+      first_miss = std::get<Miss>(one);
+    }
+  }
+  if (found.empty()) return *first_miss;
+  std::stable_sort(found.begin(), found.end(),
+                   [](const auto& a, const auto& b) { return *a.score > *b.score; });
+  WindowEstimate best = found.front();
+  best.others.assign(found.begin() + 1, found.end());
+  return best;
+}
+
+DarkCloud PaperRgbdDetector::Segment(const RegisteredImages& registered) const {
+  const CameraModel& camera = registration_.working_camera();
+  return options_.prior.knows_color()
+             ? CloudOf(ExpectedColor(options_.prior, registered.color), registered.depth_m, camera)
+             : SegmentDark(registered, camera, options_.dark_below_dn);
+}
+
+std::vector<DarkCloud> PaperRgbdDetector::Split(const DarkCloud& cloud) const {
+  if (options_.cloud == "all") return {cloud};
+  return ConnectedParts(cloud, registration_.working_camera(), options_.min_cloud_points,
+                        options_.cloud == "largest_component" ? 1 : kMostParts);
+}
+
+Detection PaperRgbdDetector::FindFrame(const DarkCloud& cloud, StageLog& log,
+                                       bool with_pictures) const {
+  log.Begin("range_image");
+  const PlaneTolerance tolerance = ToleranceOf(options_);
+  const auto shape = ShapeOf(cloud.points_K, tolerance, RandomStream(kPlaneSeed));
+  if (!shape) return Miss{"no_plane", "the dark points do not span a plane"};
+  const CameraModel& camera = registration_.working_camera();
+  const int stride = RangeImageStride(camera, options_);
+  const NarfRangeImage range_image(cloud.depth_m, camera, stride, options_.unseen_is_far);
+
+  log.Begin("narf");
+  const double support_m = SupportSize(*shape, camera, options_);
+  const std::vector<KeyPoint> key_points = range_image.DetectKeyPoints(
+      {.support_size_m = support_m, .min_interest_value = options_.min_interest_value});
+
+  log.Begin("vertices");
+  const FrameVertices vertices = ChooseFrameVertices(
+      key_points, *shape, tolerance,
+      {.min_area_fraction = options_.min_area_fraction, .min_side_ratio = options_.min_side_ratio});
+  if (with_pictures) {
+    log.Picture("range_image",
+                [&] { return DrawKeyPoints(cloud.depth_m, key_points, vertices.chosen); },
+                {{camera.Scaled(kKeyPointPictureScale), calibration_.X_KD}});
+  }
+  if (vertices.miss) return *vertices.miss;
+
+  log.Begin("centroid");
+  return Estimate(cloud, *shape, VerticesOf(key_points, *vertices.chosen), vertices.area_fraction,
+                  support_m);
+}
+
+Detection PaperRgbdDetector::Estimate(const DarkCloud& cloud, const CloudShape& shape,
+                                      const FourVertices& p_KV, double area_fraction,
+                                      double support_m) const {
+  const auto crossing = CrossDiagonals(p_KV);
+  if (!crossing) return Miss{"not_a_quadrilateral", "the diagonals do not cross"};
+  const double filled =
+      FilledShare(cloud, registration_.working_camera(), shape.plane, ToleranceOf(options_), p_KV);
+  if (filled > options_.max_filled_share) {
+    return Miss{"not_open", fmt::format("{:.2f} of the middle are dark and on the plane; {:.2f} "
+                                        "are allowed",
+                                        filled, options_.max_filled_share)};
+  }
+  const double seen =
+      SeenShare(cloud, registration_.working_camera(), shape.plane, ToleranceOf(options_), p_KV);
+  if (seen < options_.min_seen_share) {
+    return Miss{"no_frame", fmt::format("{:.2f} of a side are dark and on the plane; {:.2f} are "
+                                        "needed",
+                                        seen, options_.min_seen_share)};
+  }
+  const double depth_m = crossing->p_CO.z();
+  const Eigen::Matrix3d covariance_K = CrossingCovariance(
+      p_KV, shape.plane,
+      {.expected_m = options_.key_point_sigma_share * support_m,
+       .expected_weight = options_.key_point_sigma_weight,
+       .across_m = shape.scatter_m,
+       .common_m = options_.depth_step_per_m * depth_m * depth_m / std::sqrt(12.0)});
+  const Pose X_DK = calibration_.X_KD.inverse();
+  FourVertices p_DV;
+  for (size_t i = 0; i < 4; ++i) p_DV[i] = X_DK * p_KV[i];
+  const WindowEstimate estimate{
+      .p_CO = X_DK * crossing->p_CO,
+      .p_CV = OrderedAsSeen(p_DV),
+      .normal_C = X_DK.rotation() * shape.plane.normal_K,
+      .covariance_C = X_DK.rotation() * covariance_K * X_DK.rotation().transpose(),
+      .score = std::min(1.0, area_fraction) * shape.inlier_share * seen * (1.0 - filled)};
+  if (auto objection = ObjectionOf(options_.prior, estimate, kSideShare)) return *objection;
+  return estimate;
+}
+
+}  // namespace fenestra

@@ -1,0 +1,197 @@
+#include "vision/rgbd/plane/frame_planes.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace fenestra {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr int kLeastWall = 100;
+constexpr int kLeastFront = 30;
+constexpr double kWallReach = 1.5;  // Of the frame's longer side, on each side of it.
+constexpr double kFree_m = 1.0;     // Standard deviation of an offset that is not known.
+constexpr double kOtherwise = 4.0;
+constexpr double kOtherwise_m = 0.015;
+// What is so far behind the front or before it is no part of a frame.
+constexpr double kOff_m = 0.15;
+constexpr double kOffSigmas = 6.0;
+constexpr int kLeastOff = 15;
+constexpr double kLeastOpen = 0.3;  // Of the pixels between the edges.
+// Of the pixels within the frame's edges. Something may stand before it that hides a part.
+constexpr double kLeastBefore = 0.6;
+// Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
+constexpr double kLeastReturns = 0.6;
+// Down to here the mean of them is right to this.
+constexpr double kFewReturns = 0.3;
+constexpr double kMovedSigma_m = 0.02;
+// A frame that is not where it was said to be is something else.
+constexpr double kUnexpected = 5.0;
+constexpr double kTold_m = 0.01;
+constexpr double kInlier = 3.5;
+constexpr double kInPlane = 0.9;  // Of the points of a surface.
+
+// The plane parallel to this one and `setback_m` behind it.
+Vector3d Behind(const Vector3d& m, double setback_m) {
+  return m.normalized() / (1.0 / m.norm() + setback_m);
+}
+
+PlaneMeasurement WallMeasurement(const DepthPlane& wall, double setback_m, double sigma_m) {
+  // m = n/(n·p + relief), so that dm/drelief = |m| m, as n points towards the camera.
+  const Vector3d by_setback = wall.m.norm() * wall.m;
+  const Matrix3d covariance =
+      wall.information.inverse() + sigma_m * sigma_m * by_setback * by_setback.transpose();
+  return {.m = wall.m, .information = covariance.inverse(), .relief_m = setback_m};
+}
+
+// Of the front behind the wall, by the depth between the frame's edges.
+struct Offset {
+  double setback_m;
+  double sigma_m;
+};
+std::optional<Offset> MeasureOffset(const std::vector<DepthPoint>& front, const DepthPlane& wall,
+                                    const DepthNoise& noise) {
+  if (front.size() < kLeastFront) return std::nullopt;
+  std::vector<double> behind;
+  double inverse_depth = 0.0;
+  for (const DepthPoint& point : front) {
+    behind.push_back(-wall.Distance(point));
+    inverse_depth += point.inverse_depth / static_cast<double>(front.size());
+  }
+  const auto middle = behind.begin() + static_cast<std::ptrdiff_t>(behind.size() / 2);
+  std::nth_element(behind.begin(), middle, behind.end());
+  const double independent = std::max(1.0, static_cast<double>(front.size()) / noise.window_points);
+  // A median has π/2 times a mean's variance.
+  const double sigma_m =
+      wall.sigma / (inverse_depth * inverse_depth) * std::sqrt(1.57 / independent);
+  return Offset{*middle, sigma_m};
+}
+
+// Whether points that are not the wall's are in its plane.
+bool AreInPlane(const std::vector<DepthPoint>& points, const DepthPlane& wall,
+                const DepthNoise& noise) {
+  const auto offset = MeasureOffset(points, wall, noise);
+  if (!offset) return false;
+  Vector3d middle = Vector3d::Zero();
+  double inverse_depth = 0.0;
+  int near = 0;
+  for (const DepthPoint& point : points) {
+    middle += point.ray_D / static_cast<double>(points.size());
+    inverse_depth += point.inverse_depth / static_cast<double>(points.size());
+    const double off = point.inverse_depth - wall.m.dot(point.ray_D);
+    if (std::abs(off) < kInlier * wall.sigma) ++near;
+  }
+  if (near < kInPlane * static_cast<double>(points.size())) return false;
+  const double of_wall_m =
+      std::sqrt(middle.dot(wall.information.inverse() * middle)) / std::pow(inverse_depth, 2);
+  return std::abs(offset->setback_m) < kInlier * std::hypot(offset->sigma_m, of_wall_m);
+}
+
+double OffLimit(const DepthPoint& point, const DepthPlane& wall) {
+  return std::max(kOff_m, kOffSigmas * wall.sigma / std::pow(point.inverse_depth, 2));
+}
+
+bool IsOpen(const FrameDepth& depth, const DepthPlane& wall, double setback_m) {
+  const auto behind =
+      std::count_if(depth.border.begin(), depth.border.end(), [&](const DepthPoint& point) {
+        return -wall.Distance(point) - setback_m > OffLimit(point, wall);
+      });
+  return behind >= kLeastOff && 2 * behind > static_cast<int>(depth.border.size()) &&
+         static_cast<double>(behind) > kLeastOpen * depth.border_pixels;
+}
+
+bool StandsBefore(const FrameDepth& depth, const DepthPlane& wall) {
+  int before = 0;
+  for (const auto* points : {&depth.border, &depth.inside}) {
+    before += static_cast<int>(std::count_if(
+        points->begin(), points->end(),
+        [&](const DepthPoint& point) { return wall.Distance(point) > OffLimit(point, wall); }));
+  }
+  return before >= kLeastOff && before > kLeastBefore * (depth.border_pixels + depth.inside_pixels);
+}
+
+// What is seen of a frame's front.
+struct Front {
+  bool is_whole = false;
+  std::optional<Offset> offset;
+};
+
+Front SeeFront(const FrameDepth& points, const DepthPlane& wall, const DepthNoise& noise) {
+  const double share =
+      static_cast<double>(points.border.size()) / std::max(1.0, points.border_pixels);
+  Front front{.is_whole = share > kLeastReturns, .offset = {}};
+  if (share > kFewReturns) front.offset = MeasureOffset(points.border, wall, noise);
+  if (front.offset && !front.is_whole) {
+    front.offset->sigma_m = std::hypot(front.offset->sigma_m, kMovedSigma_m);
+  }
+  return front;
+}
+
+}  // namespace
+
+std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>& points,
+                                                   const FrameRectangle& frame,
+                                                   const DepthPlane& wall, const CameraModel& depth,
+                                                   const FramePlaneSettings& settings) {
+  FramePlanes found;
+  found.points =
+      DepthOf(points, frame, depth,
+              {.clear_px = settings.clear_px,
+               .wall = kWallReach,
+               .read = settings.noise.window_points / std::pow(settings.noise.window_px, 2)});
+  auto measured = MeasureDepthPlane(found.points.wall, wall.m, settings.noise, kLeastWall);
+  if (!measured || !IsKnownAt(*measured, frame.ToEstimate().p_CV)) {
+    return Miss{"no_depth", fmt::format("{} depth pixels of the wall around the frame",
+                                        found.points.wall.size())};
+  }
+  const bool opening_is_in_plane = AreInPlane(found.points.inside, *measured, settings.noise);
+  if (opening_is_in_plane) {
+    found.points.wall.insert(found.points.wall.end(), found.points.inside.begin(),
+                             found.points.inside.end());
+    const auto both = MeasureDepthPlane(found.points.wall, measured->m, settings.noise, kLeastWall);
+    if (both) measured = both;
+  }
+  found.wall = *measured;
+  found.setback_m = settings.setback_m;
+  if (IsOpen(found.points, found.wall, settings.setback_m)) {
+    return Miss{"open_border", "what is seen between the frame's edges is far behind them"};
+  }
+  if (StandsBefore(found.points, found.wall)) {
+    return Miss{"stands_before", "what is seen within the frame's edges is far before the wall"};
+  }
+  const Front seen = SeeFront(found.points, found.wall, settings.noise);
+  // What has wall within it is painted on it.
+  const bool is_painted = opening_is_in_plane && settings.setback_m == 0.0;
+  found.setback_sigma_m = is_painted ? 0.0 : settings.setback_sigma_m;
+  double fitted_sigma_m = settings.fits_setback ? found.setback_sigma_m : 0.0;
+  if (seen.offset) {
+    const double off_m = std::abs(seen.offset->setback_m - settings.setback_m);
+    const double sigma_m = std::hypot(found.setback_sigma_m, seen.offset->sigma_m, kTold_m);
+    if (!is_painted && off_m > kUnexpected * sigma_m) {
+      return Miss{"unexpected_setback",
+                  fmt::format("what is seen between the frame's edges is {:.3f} m behind the wall, "
+                              "not {:.3f} m",
+                              seen.offset->setback_m, settings.setback_m)};
+    }
+    // A few returns are better than none.
+    const double surely_m = seen.is_whole ? kOtherwise * seen.offset->sigma_m : 0.0;
+    if (!is_painted && off_m > std::max(kOtherwise_m, surely_m)) {
+      found.setback_m = seen.offset->setback_m;
+      if (seen.is_whole) fitted_sigma_m = kFree_m;
+    }
+    found.setback_sigma_m = std::min(found.setback_sigma_m, seen.offset->sigma_m);
+  }
+  found.planes.push_back(WallMeasurement(found.wall, found.setback_m, fitted_sigma_m));
+  if (!seen.is_whole) return found;
+  const auto own = MeasureDepthPlane(found.points.border, Behind(found.wall.m, found.setback_m),
+                                     settings.noise, kLeastFront);
+  if (own) found.planes.push_back({.m = own->m, .information = own->information, .relief_m = 0.0});
+  return found;
+}
+
+}  // namespace fenestra

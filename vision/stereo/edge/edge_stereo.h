@@ -1,0 +1,67 @@
+#pragma once
+
+#include "core/detection/detector.h"
+#include "core/geometry/calibration.h"
+#include "vision/frame/frame_fitter.h"
+#include "vision/frame/model/frame_limits.h"
+#include "vision/stereo/edge/edge_stereo_options.h"
+#include "vision/stereo/edge/frame_seed.h"
+#include "vision/stereo/rectification.h"
+
+namespace fenestra {
+
+/// Detects a dark-framed window by its edges and fits one rectangle to both images.
+///
+///   stage      what                                                         where
+///   rectify    Bouguet's rectification of both images                       rectification.h
+///   segments   straight edges of both, grouped by the side that they may be edge_segments.h
+///   propose    dark quadrilaterals of the left image                        dark_quadrilateral.h
+///   match      their upright sides in the right image: corners in space     frame_seed.h
+///   fit        edges to sub-pixel in both images as delivered, one          frame_fitter.h
+///              rectangle with a border fitted to all of them
+///   choose     the clearest, which names the others                         frame_score.h
+///
+/// Estimates are in L, the unrectified left camera. Their covariance is that of the fit: it covers
+/// the noise of the images but not errors of the calibration. Pictures in the log: "rectified",
+/// "segments", "edge_points".
+class EdgeStereoDetector : public Detector {
+ public:
+  /// Throws InputError for options that Validate refuses and for a calibration that cannot be
+  /// rectified, see StereoRectification.
+  EdgeStereoDetector(const StereoCalibration& calibration, const EdgeStereoOptions& options);
+
+  SensorKind sensor() const override { return SensorKind::kStereo; }
+
+  /// Miss: "no_quadrilateral", "no_stereo_match", "no_edges", "unsupported_side",
+  /// "implausible_shape", "not_dark", "light_frame", depending on how far the best candidate got;
+  /// "unexpected_size", "unexpected_shape" or "unexpected_grey" with a prior.
+  Detection Detect(const Observation& observation, StageLog& log) const override;
+
+ private:
+  struct Candidate {
+    FrameFitter fitter;
+    FrameFit rough;
+    double score;
+  };
+  struct Finished {
+    FrameFit fit;
+    WindowEstimate estimate;
+  };
+  std::vector<FrameSeed> Seeds(const std::vector<DarkQuadrilateral>& candidates,
+                               const EdgeSegments& right_segments,
+                               const cv::Mat1b& right_image) const;
+  std::optional<Miss> Objection(std::span<const CameraView> views, const FrameFit& fit) const;
+  Detection FitBest(const std::array<CameraView, 2>& views, const std::vector<FrameSeed>& seeds,
+                    StageLog& log) const;
+  std::variant<Finished, Miss> Finish(std::span<const CameraView> views,
+                                      Candidate& candidate) const;
+
+  EdgeStereoOptions options_;
+  StereoCalibration calibration_;
+  StereoRectification rectification_;
+  FrameLimits limits_;
+  DarknessSettings darkness_;
+  FrameFitSettings fitting_;
+};
+
+}  // namespace fenestra
