@@ -4,8 +4,10 @@ include(GNUInstallDirs)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Fenestra)
 
 install(TARGETS fenestra)
-set_target_properties(fenestra_core PROPERTIES EXPORT_NAME core)
-install(TARGETS fenestra_core EXPORT FenestraTargets)
+foreach(library core core_detection core_geometry core_io core_random core_system)
+  set_target_properties(fenestra_${library} PROPERTIES EXPORT_NAME ${library})
+  install(TARGETS fenestra_${library} EXPORT FenestraTargets)
+endforeach()
 install(DIRECTORY core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/fenestra
   FILES_MATCHING PATTERN "*.h")
 install(FILES vision/detector_plugin.h vision/detector_info.h

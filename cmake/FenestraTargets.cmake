@@ -34,18 +34,30 @@ if(MOLD)
   target_link_options(fenestra_options INTERFACE -fuse-ld=mold)
 endif()
 
-# fenestra_library(<folder> SOURCES ... [PUBLIC libs...] [PRIVATE libs...])
-function(fenestra_library name)
+# fenestra_library([SOURCES ...] [PUBLIC libs...] [PRIVATE libs...]): the library of the folder whose
+# CMakeLists.txt calls it, named after its path: sim/camera is fenestra::sim_camera. Without sources
+# it stands for what it links.
+function(fenestra_library)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(fenestra_${name} STATIC ${ARG_SOURCES})
+  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${CMAKE_SOURCE_DIR}
+    OUTPUT_VARIABLE folder)
+  string(REPLACE "/" "_" name ${folder})
+  if(ARG_SOURCES)
+    add_library(fenestra_${name} STATIC ${ARG_SOURCES})
+    target_link_libraries(fenestra_${name}
+      PUBLIC ${ARG_PUBLIC}
+      PRIVATE $<BUILD_INTERFACE:fenestra_options> ${ARG_PRIVATE})
+    set(scope PUBLIC)
+    set_target_properties(fenestra_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  else()
+    add_library(fenestra_${name} INTERFACE)
+    target_link_libraries(fenestra_${name} INTERFACE ${ARG_PUBLIC})
+    set(scope INTERFACE)
+  endif()
   add_library(fenestra::${name} ALIAS fenestra_${name})
-  target_link_libraries(fenestra_${name}
-    PUBLIC ${ARG_PUBLIC}
-    PRIVATE $<BUILD_INTERFACE:fenestra_options> ${ARG_PRIVATE})
-  target_include_directories(fenestra_${name} PUBLIC
+  target_include_directories(fenestra_${name} ${scope}
     $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:include/fenestra>)
-  target_compile_features(fenestra_${name} PUBLIC cxx_std_20)
-  set_target_properties(fenestra_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(fenestra_${name} ${scope} cxx_std_20)
 endfunction()
 
 # fenestra_test(<folder> SOURCES ... LIBRARIES ...): one test program per folder.

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/experiments/record_examples.h"
+#include "tests/experiments/trial/record_examples.h"
 
 namespace fenestra::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/calibration.h"
-#include "tests/vision/stereo/exact_frame.h"
+#include "tests/vision/frame/exact_frame.h"
 
 namespace fenestra::testing {
 
