@@ -1,13 +1,24 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/detection/detection.h"
 #include "core/detection/stage_log.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
+
+/// Geometry as JSON: lists of numbers, matrices row by row, every double in the shortest form that
+/// reads back with the same bits (-0.0 included). Numbers must be finite; JSON has no others.
+nlohmann::ordered_json ToJson(const Eigen::Vector3d& v);
+nlohmann::ordered_json ToJson(const Eigen::Matrix3d& m);
+nlohmann::ordered_json ToJson(const std::array<Eigen::Vector3d, 4>& corners);
+/// {"rotation": [[...], ...], "translation_m": [...]}
+nlohmann::ordered_json ToJson(const Pose& X);
 
 /// A detection as JSON, metres in the scored camera's frame, all digits of every double:
 ///

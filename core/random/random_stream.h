@@ -6,6 +6,8 @@
 
 namespace fenestra {
 
+class Pose;
+
 /// A pure function from (seed, path, index) to random numbers; no state, no order of calls.
 ///
 /// Numbers come from Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3",
@@ -38,5 +40,9 @@ class RandomStream {
  private:
   uint64_t key_;
 };
+
+/// A small displacement: a rotation vector and a translation, whose six components are independent
+/// and normal with mean 0 and the given standard deviations [rad], [m].
+Pose RandomPose(const RandomStream& stream, double rotation_rad, double translation_m);
 
 }  // namespace fenestra

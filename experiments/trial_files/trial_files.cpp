@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/detection/observation_files.h"
-#include "core/geometry/calibration_io.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
 #include "experiments/output/pcd.h"

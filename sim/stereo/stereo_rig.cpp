@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/io/faults.h"
-#include "core/random/random_pose.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {

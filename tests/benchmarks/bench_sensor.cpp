@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/system/freed_memory.h"
+#include "core/system/program.h"
 #include "renderers/light/lane_kernels.h"
 #include "renderers/tracing/pane_kernels.h"
 #include "renderers/tracing/traced_scene.h"

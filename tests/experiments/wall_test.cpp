@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/detection/observation_files.h"
+#include "core/detection/observation.h"
 #include "experiments/study_file/study_reader.h"
 #include "experiments/trial/cell_bench.h"
 #include "experiments/trial/scoring.h"
