@@ -37,16 +37,16 @@ struct TimedDetection {
   std::vector<StageTime> stages;
 };
 
-/// The inverse. Keys that are not named above are ignored. Throws std::runtime_error, saying what
-/// is wrong, for anything else than the above: a missing key, a wrong shape, a reason that is not
-/// snake_case, a negative time.
+/// The inverse of ToJson. Ignores keys that are not named above. Throws std::runtime_error, with
+/// the reason, for a missing key, a wrong shape, a reason that is not snake_case or a negative
+/// time.
 TimedDetection DetectionFromJson(const nlohmann::ordered_json& json);
 
-/// ToJson with the detector's name before it, for people and programs.
+/// The JSON of a detection with the detector's name before it, for people and programs.
 std::string DetectionJson(const std::string& detector, const Detection& detection,
                           const StageLog& log);
 
-/// The same for people alone.
+/// A detection and the times of its stages as text for people.
 std::string DetectionText(const std::string& detector, const Detection& detection,
                           const StageLog& log);
 

@@ -9,7 +9,7 @@
 
 namespace fenestra {
 
-/// What a robot believes about its stereo rig. Frames: L left camera, R right camera.
+/// Calibration of a stereo rig, as a robot has it. Frames: L left camera, R right camera.
 struct StereoCalibration {
   CameraModel left;
   CameraModel right;
@@ -18,7 +18,7 @@ struct StereoCalibration {
   bool operator==(const StereoCalibration&) const = default;
 };
 
-/// What a robot believes about its RGB-D sensor. Frames: K colour camera, D the camera whose
+/// Calibration of an RGB-D sensor, as a robot has it. Frames: K colour camera, D the camera whose
 /// pixels the depth image has. For a depth image that is registered to the colour image, D is K:
 /// X_KD is the identity and both cameras are the same.
 struct RgbdCalibration {

@@ -30,7 +30,7 @@ struct BrownConrady {
   bool operator==(const BrownConrady&) const = default;
 };
 
-/// What a pinhole camera with a Brown–Conrady lens is made of.
+/// Parameters of a pinhole camera with a Brown–Conrady lens.
 struct CameraParameters {
   int width_px = 0;
   int height_px = 0;
@@ -86,8 +86,9 @@ class CameraModel {
   /// Pixel to the direction (x, y, 1) of its ray in C. The inverse of Project to 1e-12 in the
   /// normalised image; nullopt where no ray of the valid domain meets the pixel.
   std::optional<Eigen::Vector3d> UnprojectRay(const Eigen::Vector2d& pixel) const;
-  /// The same, several times faster where `near`, (x, y) of a ray that is guessed from neighbouring
-  /// pixels, is right to a small part of a pixel. The result differs by rounding, by up to 1e-13.
+  /// UnprojectRay from a first guess `near`, (x, y) of a ray known from neighbouring pixels.
+  /// Several times faster if the guess is right to a small part of a pixel. The result differs by
+  /// rounding, by up to 1e-13.
   std::optional<Eigen::Vector3d> UnprojectRay(const Eigen::Vector2d& pixel,
                                               const Eigen::Vector2d& near) const;
 

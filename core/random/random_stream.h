@@ -19,7 +19,7 @@ class RandomStream {
  public:
   explicit RandomStream(uint64_t seed) : key_(seed) {}
 
-  /// The stream for one purpose ("read_noise") and index (a replicate, a frame, a camera).
+  /// The stream for one purpose ("read_noise") and index (a replicate, an image, a camera).
   RandomStream Child(std::string_view purpose, uint64_t index = 0) const;
 
   /// Uniform in the open interval (0, 1), 52 bits.

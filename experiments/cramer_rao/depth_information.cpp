@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "sim/structured_light/block_evidence.h"
-#include "sim/structured_light/disparity_range.h"
-#include "sim/structured_light/sampled_pattern.h"
+#include "sim/structured_light/disparity.h"
+#include "sim/structured_light/dot_pattern.h"
 
 namespace fenestra {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "scenes/lighting.h"
-#include "sim/structured_light/disparity_range.h"
-#include "sim/structured_light/sampled_pattern.h"
+#include "sim/structured_light/disparity.h"
+#include "sim/structured_light/dot_pattern.h"
 
 namespace fenestra {
 namespace {

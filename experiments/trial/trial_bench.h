@@ -8,9 +8,8 @@
 #include "experiments/sampling/trial_sampler.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/trial_record.h"
-#include "sim/structured_light/depth_frame.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/truth/ground_truth.h"
-#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "renderers/light/lit_surfaces.h"
 #include "renderers/tracing/sobol_samples.h"
 
 namespace fenestra {

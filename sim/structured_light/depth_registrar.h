@@ -2,7 +2,7 @@
 
 #include "core/detection/depth_reprojection.h"
 #include "renderers/ray_caster.h"
-#include "sim/structured_light/depth_frame.h"
+#include "sim/structured_light/missing_return.h"
 
 namespace fenestra {
 

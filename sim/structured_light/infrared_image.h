@@ -4,8 +4,8 @@
 
 #include "core/random/random_stream.h"
 #include "renderers/tracing/render_types.h"
+#include "sim/structured_light/dot_pattern.h"
 #include "sim/structured_light/infrared_view.h"
-#include "sim/structured_light/sampled_pattern.h"
 
 namespace fenestra {
 

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "core/geometry/camera_model.h"
-#include "sim/structured_light/depth_frame.h"
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
 #include "sim/structured_light/infrared_view.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/io/input_error.h"
-#include "sim/structured_light/chance_match.h"
+#include "sim/structured_light/block_evidence.h"
 #include "sim/structured_light/missing_return.h"
 
 namespace fenestra {

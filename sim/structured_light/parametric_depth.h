@@ -7,9 +7,9 @@
 #include "renderers/ray_caster.h"
 #include "sim/motion/moving_rays.h"
 #include "sim/structured_light/block_evidence.h"
-#include "sim/structured_light/depth_frame.h"
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {

@@ -4,9 +4,8 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
-#include "sim/structured_light/subpixel_vertex.h"
 
 namespace fenestra {
 
