@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "scenes/lighting.h"
-#include "sim/structured_light/disparity_range.h"
-#include "sim/structured_light/sampled_pattern.h"
+#include "sim/structured_light/disparity.h"
+#include "sim/structured_light/dot_pattern.h"
 
 namespace fenestra {
 namespace {
@@ -15,10 +15,10 @@ namespace {
 constexpr double kLandauReflectance = 0.8;
 
 // The pattern's moments: means over displacements by fractions of a pixel.
-GatheredPattern::Moments MeanMoments(const InfraredOptions& infrared) {
-  const GatheredPattern pattern(infrared.dot_sigma_px);
+SampledPattern::Moments MeanMoments(const InfraredOptions& infrared) {
+  const SampledPattern pattern(infrared.dot_sigma_px);
   constexpr int kPhases = 8;
-  GatheredPattern::Moments mean{0.0, 0.0};
+  SampledPattern::Moments mean{0.0, 0.0};
   for (int i = 0; i < kPhases; ++i) {
     const auto moments = pattern.MomentsAt((i + 0.5) / kPhases);
     mean.mean += moments.mean / kPhases;
@@ -27,8 +27,8 @@ GatheredPattern::Moments MeanMoments(const InfraredOptions& infrared) {
   return mean;
 }
 
-// The noise variance [DN²] with which a window of dots of s DN still just correlates enough.
-double LargestNoise(const StructuredLightOptions& o, const GatheredPattern::Moments& m,
+// The noise variance [DN²] with which a block of dots of s DN still just correlates enough.
+double LargestNoise(const StructuredLightOptions& o, const SampledPattern::Moments& m,
                     double s_dn) {
   const double rho = o.matching.least_correlation;
   const double c = o.infrared.speckle_contrast;
@@ -64,7 +64,7 @@ double MicrosoftStep(double z_m) {
 ReachPrediction PredictedAmbientLimit(const StructuredLightOptions& o, double reflectance,
                                       double z_m) {
   const InfraredOptions& infrared = o.infrared;
-  const GatheredPattern::Moments m = MeanMoments(infrared);
+  const SampledPattern::Moments m = MeanMoments(infrared);
   const double s_dn = infrared.dot_signal_dn * reflectance / kLandauReflectance / (z_m * z_m);
   const double dark = infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0;
   const double acceptance_dn =
@@ -78,7 +78,7 @@ ReachPrediction PredictedAmbientLimit(const StructuredLightOptions& o, double re
 
 double PredictedReach(const StructuredLightOptions& o, double reflectance) {
   const InfraredOptions& infrared = o.infrared;
-  const GatheredPattern::Moments m = MeanMoments(infrared);
+  const SampledPattern::Moments m = MeanMoments(infrared);
   const double dark = infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0;
   // k s² = dark + c_shot m s.
   const double k = LargestNoise(o, m, 1.0);

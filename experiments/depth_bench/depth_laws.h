@@ -30,7 +30,7 @@ double MicrosoftStep(double z_m);
 ///
 /// and is matched if ρ ≥ ρ₀, and if ambient light does not saturate the image.
 struct ReachPrediction {
-  double lux = 0.0;            ///< On the wall, of daylight, at which half of the windows are lost.
+  double lux = 0.0;            ///< On the wall, of daylight, at which half of the blocks are lost.
   bool by_saturation = false;  ///< Otherwise the acceptance test limits it.
 };
 

@@ -129,7 +129,7 @@ Attempt CellRunner::Try(size_t detector, const SimulatedTrial& simulated,
   return {std::move(record), std::move(log)};
 }
 
-std::optional<DepthFrame> CellRunner::DepthOf(const SimulatedTrial& simulated) const {
+std::optional<ExplainedDepth> CellRunner::DepthOf(const SimulatedTrial& simulated) const {
   const auto instrument = InstrumentOf(simulated.trial);
   const auto* sensor = std::get_if<StructuredLightSensor>(&instrument->sensor);
   if (sensor == nullptr) return std::nullopt;

@@ -30,7 +30,7 @@ class CellRunner final : public TrialRunner {
   Attempt Try(size_t detector, const SimulatedTrial& simulated, bool keep_artifacts) const override;
   TrueSensor SensorOf(const SimulatedTrial& simulated) const override;
   TruthImages TruthOf(const SimulatedTrial& simulated) const override;
-  std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const override;
+  std::optional<ExplainedDepth> DepthOf(const SimulatedTrial& simulated) const override;
 
  private:
   /// A scene and its ray tracing structures; fixed in memory.

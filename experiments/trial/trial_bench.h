@@ -8,9 +8,8 @@
 #include "experiments/sampling/trial_sampler.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/trial_record.h"
-#include "sim/structured_light/depth_frame.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/truth/ground_truth.h"
-#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 
@@ -61,7 +60,7 @@ class TrialRunner {
 
   /// The depth image with what detectors never see of it: why pixels have no return, and the
   /// infra-red image if there is one. nullopt for stereo.
-  virtual std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const = 0;
+  virtual std::optional<ExplainedDepth> DepthOf(const SimulatedTrial& simulated) const = 0;
 };
 
 /// A trial that every detector of its cell has tried.

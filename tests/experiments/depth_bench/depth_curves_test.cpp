@@ -98,7 +98,7 @@ TEST(DepthCurvesTest, HalfPointsLieBetweenTheSamplesAroundThem) {
 TEST(DepthCurvesTest, BothModelsStandInOneReport) {
   const DepthCurves parametric =
       MeasureDepthCurves(Small(DepthModel::kParametric), RandomStream(1));
-  const DepthCurves speckle = MeasureDepthCurves(Small(DepthModel::kSpeckle), RandomStream(1));
+  const DepthCurves speckle = MeasureDepthCurves(Small(DepthModel::kMatched), RandomStream(1));
   const std::string report =
       DepthCurvesMarkdown(Small(DepthModel::kParametric), parametric, speckle);
   EXPECT_NE(report.find("Khoshelham"), std::string::npos);

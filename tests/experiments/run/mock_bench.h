@@ -53,7 +53,7 @@ class MockRunner final : public TrialRunner {
     return {.cameras = calibration_, .velocity_W = Eigen::Vector3d::Zero()};
   }
 
-  std::optional<DepthFrame> DepthOf(const SimulatedTrial& /*simulated*/) const override {
+  std::optional<ExplainedDepth> DepthOf(const SimulatedTrial& /*simulated*/) const override {
     return std::nullopt;
   }
 

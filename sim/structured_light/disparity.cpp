@@ -1,4 +1,4 @@
-#include "sim/structured_light/subpixel_vertex.h"
+#include "sim/structured_light/disparity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,22 @@ float VertexOfLogarithms(float before, float score, float after) {
 
 }  // namespace
 
-SubpixelVertex::SubpixelVertex(const GatheredPattern& pattern) {
+DisparityRange DisparityRange::Of(double focal_px, int width_px, double baseline_m, double step_px,
+                                  bool near_mode) {
+  return {.focal_times_baseline = focal_px * baseline_m * kImageWidth / width_px,
+          .step_px = step_px,
+          .nearest_m = near_mode ? 0.4 : 0.8,
+          .farthest_m = near_mode ? 3.0 : 4.0};
+}
+
+double DisparityRange::Depth(double disparity_px) const {
+  const double quantised_px =
+      step_px > 0.0 ? step_px * std::round(disparity_px / step_px) : disparity_px;
+  const double z_m = focal_times_baseline / quantised_px;
+  return Contains(z_m) ? z_m : 0.0;
+}
+
+SubpixelVertex::SubpixelVertex(const SampledPattern& pattern) {
   const auto fill = [&](Curve& curve, double step) {
     for (int i = 0; i < kOffsets; ++i) {
       const double place = step + i * static_cast<double>(kSpacing);

@@ -1,4 +1,4 @@
-#include "core/system/shell_quoting.h"
+#include "core/system/program.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "sim/structured_light/chance_match.h"
+#include "sim/structured_light/block_evidence.h"
 
 #include <gtest/gtest.h>
 
