@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vision/frame/measurement/edge_strips.h"
+#include "vision/frame/measurement/side_sampling.h"
 
 namespace fenestra {
 
