@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/rgbd/paper/convex_hull.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 
 namespace fenestra {
 namespace {

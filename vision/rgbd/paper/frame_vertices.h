@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/detection/detection.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/diagonals.h"
-#include "vision/rgbd/paper/dominant_plane.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 
 namespace fenestra {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/geometry/camera_model.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/dark_cloud.h"
 #include "vision/rgbd/paper/diagonals.h"
-#include "vision/rgbd/paper/dominant_plane.h"
 
 namespace fenestra {
 

@@ -2,10 +2,10 @@
 
 #include "core/detection/detector.h"
 #include "core/geometry/calibration.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/dark_cloud.h"
 #include "vision/rgbd/paper/depth_registration.h"
 #include "vision/rgbd/paper/diagonals.h"
-#include "vision/rgbd/paper/dominant_plane.h"
 #include "vision/rgbd/paper/paper_rgbd_options.h"
 
 namespace fenestra {
