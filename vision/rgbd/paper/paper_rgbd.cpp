@@ -9,7 +9,6 @@
 #include "vision/rgbd/paper/diagonals.h"
 #include "vision/rgbd/paper/frame_vertices.h"
 #include "vision/rgbd/paper/narf_key_points.h"
-#include "vision/rgbd/paper/opening.h"
 #include "vision/rgbd/paper/paper_pictures.h"
 #include "vision/rgbd/rgbd_images.h"
 
