@@ -8,8 +8,8 @@
 
 #include "core/io/input_error.h"
 #include "vision/frame/detection/darkness.h"
+#include "vision/stereo/paper/block_matching.h"
 #include "vision/stereo/paper/closed_contour.h"
-#include "vision/stereo/paper/guided_matching.h"
 #include "vision/stereo/paper/stage_pictures.h"
 #include "vision/stereo/paper/window_rectangle.h"
 #include "vision/stereo/rectification.h"
