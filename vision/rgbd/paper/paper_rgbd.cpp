@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/io/input_error.h"
+#include "vision/rgbd/paper/dark_cloud.h"
+#include "vision/rgbd/paper/depth_registration.h"
 #include "vision/rgbd/paper/diagonals.h"
 #include "vision/rgbd/paper/frame_vertices.h"
 #include "vision/rgbd/paper/narf_key_points.h"
-#include "vision/rgbd/paper/paper_pictures.h"
 #include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
@@ -81,6 +87,38 @@ class StageEnd {
  private:
   StageLog& log_;
 };
+
+// Scale of DrawKeyPoints' picture relative to the range image.
+constexpr int kKeyPointPictureScale = 3;
+
+// Marks in the colour image the cloud's pixels green and dark pixels without depth red.
+cv::Mat3b DrawSegmentation(const RegisteredImages& images, const DarkCloud& cloud) {
+  cv::Mat3b drawn = images.color.clone();
+  const cv::Mat1b with_depth = cloud.depth_m > 0.0f;
+  drawn.setTo(cv::Scalar(60, 60, 230), cloud.mask);
+  drawn.setTo(cv::Scalar(80, 200, 80), with_depth);
+  return drawn;
+}
+
+// Draws key points as circles on the cloud's depth, and the chosen four as a closed outline.
+cv::Mat3b DrawKeyPoints(const cv::Mat1f& depth_m, const std::vector<KeyPoint>& key_points,
+                        const std::optional<std::array<int, 4>>& chosen) {
+  constexpr int kScale = kKeyPointPictureScale;
+  cv::Mat3b drawn;
+  cv::resize(DrawDepth(depth_m), drawn, {}, kScale, kScale, cv::INTER_NEAREST);
+  const auto center = [](const KeyPoint& key_point) {
+    return cv::Point(kScale * key_point.pixel.x() + kScale / 2,
+                     kScale * key_point.pixel.y() + kScale / 2);
+  };
+  for (const KeyPoint& key_point : key_points) {
+    cv::circle(drawn, center(key_point), 7, cv::Scalar(255, 255, 255), 2, cv::LINE_AA);
+  }
+  if (!chosen) return drawn;
+  std::vector<cv::Point> outline;
+  for (const int i : *chosen) outline.push_back(center(key_points[static_cast<size_t>(i)]));
+  cv::polylines(drawn, outline, true, cv::Scalar(255, 0, 255), 2, cv::LINE_AA);
+  return drawn;
+}
 
 }  // namespace
 

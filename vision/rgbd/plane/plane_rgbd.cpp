@@ -4,16 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/detection/observation.h"
 #include "core/io/input_error.h"
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
+#include "vision/rgbd/plane/depth_points.h"
 #include "vision/rgbd/plane/frame_paint.h"
 #include "vision/rgbd/plane/frame_planes.h"
 #include "vision/rgbd/plane/linear_grey.h"
-#include "vision/rgbd/plane/plane_pictures.h"
 #include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
@@ -57,6 +59,29 @@ const RgbdObservation& RgbdPart(const Observation& observation) {
     throw InputError("observation", "a stereo observation was given to an RGB-D detector");
   }
   return *rgbd;
+}
+
+// Marks in a depth image the points that were used: the wall green, points off its plane red, and
+// the frame's front yellow.
+cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
+                       const DepthPointReader& reader) {
+  cv::Mat1f depth_m;
+  depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
+  cv::Mat3b picture;
+  DrawDepth(depth_m).convertTo(picture, CV_8U, 0.4);
+  const auto mark = [&](const DepthPoint& point, const cv::Vec3b& colour) {
+    const cv::Rect place =
+        cv::Rect(point.pixel.x - reader.columns() / 2, point.pixel.y - reader.rows() / 2,
+                 reader.columns(), reader.rows()) &
+        cv::Rect({0, 0}, picture.size());
+    picture(place).setTo(colour);
+  };
+  for (size_t i = 0; i < planes.points.wall.size(); ++i) {
+    mark(planes.points.wall[i],
+         planes.wall.is_inlier[i] ? cv::Vec3b(80, 200, 80) : cv::Vec3b(60, 60, 230));
+  }
+  for (const DepthPoint& point : planes.points.border) mark(point, {60, 220, 230});
+  return picture;
 }
 
 }  // namespace
