@@ -25,10 +25,7 @@ namespace {
 constexpr uint64_t kPlaneSeed = 1;
 
 RgbdCalibration Checked(const RgbdCalibration& calibration) {
-  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
-    throw InputError("depth_unit_m",
-                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
-  }
+  CheckDepthUnit(calibration);
   const CameraModel working = WorkingCamera(calibration);
   if (!NarfRangeImage::Supports(working)) {
     throw InputError(
@@ -147,14 +144,11 @@ PaperRgbdDetector::PaperRgbdDetector(const RgbdCalibration& calibration,
 }
 
 Detection PaperRgbdDetector::Detect(const Observation& observation, StageLog& log) const {
-  const auto* images = std::get_if<RgbdObservation>(&observation);
-  if (images == nullptr) {
-    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
-  }
+  const RgbdObservation& images = RgbdPart(observation);
   const PictureView view{registration_.working_camera(), calibration_.X_KD};
   const StageEnd stage_end(log);
   log.Begin("register");
-  const RegisteredImages registered = registration_.Register(*images);
+  const RegisteredImages registered = registration_.Register(images);
   log.Picture("registered_depth", [&] { return DrawDepth(registered.depth_m); }, {view});
 
   log.Begin("segment");

@@ -15,7 +15,6 @@
 #include "vision/rgbd/plane/depth_points.h"
 #include "vision/rgbd/plane/frame_paint.h"
 #include "vision/rgbd/plane/frame_planes.h"
-#include "vision/rgbd/plane/linear_grey.h"
 #include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
@@ -33,10 +32,7 @@ constexpr double kMostUneven = 4.0;
 constexpr double kBlack_dn = 8.0;
 
 const RgbdCalibration& Checked(const RgbdCalibration& calibration) {
-  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
-    throw InputError("depth_unit_m",
-                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
-  }
+  CheckDepthUnit(calibration);
   return calibration;
 }
 
@@ -51,14 +47,6 @@ DepthNoise NoiseOf(const RgbdCalibration& calibration, const PlaneRgbdOptions& o
           .window_rad = window_px / calibration.depth.parameters().fx_px,
           .image = {width_px, calibration.depth.height_px()},
           .farthest = options.depth_to_m > 0.0 ? 1.0 / options.depth_to_m : 0.0};
-}
-
-const RgbdObservation& RgbdPart(const Observation& observation) {
-  const auto* rgbd = std::get_if<RgbdObservation>(&observation);
-  if (rgbd == nullptr) {
-    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
-  }
-  return *rgbd;
 }
 
 // Marks in a depth image the points that were used: the wall green, points off its plane red, and
