@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/io/input_error.h"
 #include "vision/frame/detection/darkness.h"
 #include "vision/stereo/paper/block_matching.h"
 #include "vision/stereo/paper/closed_contour.h"
@@ -32,14 +31,6 @@ FrameCriteria Criteria(const PaperStereoOptions& options) {
           .max_skew_rad = options.max_skew_rad,
           .max_taper = options.max_taper,
           .prior = options.prior};
-}
-
-const StereoObservation& StereoPart(const Observation& observation) {
-  const auto* stereo = std::get_if<StereoObservation>(&observation);
-  if (stereo == nullptr) {
-    throw InputError("observation", "is of an RGB-D sensor; this detector needs a stereo pair");
-  }
-  return *stereo;
 }
 
 // Draws depth in false colours, near red and far blue; pixels without depth are black.
