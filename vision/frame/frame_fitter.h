@@ -10,7 +10,7 @@
 #include "core/detection/detection.h"
 #include "vision/frame/adjustment/frame_fit.h"
 #include "vision/frame/measurement/frame_border.h"
-#include "vision/frame/model/frame_knowledge.h"
+#include "vision/frame/model/frame_prior.h"
 
 namespace fenestra {
 

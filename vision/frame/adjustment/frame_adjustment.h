@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vision/frame/measurement/edge_points.h"
-#include "vision/frame/model/frame_knowledge.h"
+#include "vision/frame/model/frame_prior.h"
 #include "vision/frame/model/frame_rectangle.h"
 
 namespace fenestra {

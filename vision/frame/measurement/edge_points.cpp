@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "vision/frame/measurement/edge_tuning.h"
+#include "vision/frame/measurement/edge_nuisance.h"
 #include "vision/frame/measurement/side_sampling.h"
 
 namespace fenestra {
