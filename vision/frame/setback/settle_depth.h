@@ -23,8 +23,8 @@ void AddParallax(std::span<const CameraView> views, const SideDepths& depths, Fr
 
 /// Estimates how far the front of a fitted frame is behind its rectangle, whose sides may be the
 /// frame's own, the wall's, or one of each, and moves the frame there. The evidence is the parallax
-/// between two views (parallax_edges.h, front_belief.h) of edges along the vertical sides: those of
-/// the rectangle itself, of reveals and shadows, and of the opening. The uncertainty is added to
+/// between two views (parallax_edges.h, frame_setback.h) of edges along the vertical sides: those
+/// of the rectangle itself, of reveals and shadows, and of the opening. The uncertainty is added to
 /// the covariance along the normal, and across it for the parallax of sides that are partly the
 /// wall's and partly the frame's.
 ///
