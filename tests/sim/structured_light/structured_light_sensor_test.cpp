@@ -33,8 +33,8 @@ Scene BoxBeforeWall(double half_width_m, double stand_off_m) {
   return scene;
 }
 
-DepthFrame Seen(const StructuredLightOptions& options, const Scene& scene,
-                const Viewpoint& viewpoint, const Lighting& lighting = {}, uint64_t seed = 1) {
+ExplainedDepth Seen(const StructuredLightOptions& options, const Scene& scene,
+                    const Viewpoint& viewpoint, const Lighting& lighting = {}, uint64_t seed = 1) {
   const StructuredLightSensor sensor(options);
   const RayCaster caster(scene);
   return sensor.ObserveDepth(caster, lighting, RigPose(viewpoint, Pose()), RandomStream(seed));
@@ -50,14 +50,14 @@ StructuredLightOptions Noiseless() {
 
 TEST(StructuredLightSensorTest, AWallsDepthIsRightToHalfAStep) {
   for (const double z_m : {1.0, 1.7, 2.9, 3.8}) {
-    const DepthFrame frame = Seen(Noiseless(), WhiteWall(), {.distance_m = z_m});
+    const ExplainedDepth frame = Seen(Noiseless(), WhiteWall(), {.distance_m = z_m});
     const double step_m = 0.125 * z_m * z_m / kFocalTimesBaseline;
     EXPECT_NEAR(frame.depth.raw(120, 160) * frame.depth.unit_m, z_m, 0.5 * step_m * 1.02 + 0.0005);
   }
 }
 
 TEST(StructuredLightSensorTest, DepthsAreThoseOfWholeDisparitySteps) {
-  const DepthFrame frame = Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.5});
+  const ExplainedDepth frame = Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.5});
   std::set<uint16_t> values;
   for (const uint16_t raw : frame.depth.raw) {
     if (raw != 0) values.insert(raw);
@@ -80,7 +80,7 @@ TEST(StructuredLightSensorTest, NoiseOfAWallIsThatOfItsFormula) {
   const ParametricDepthOptions& noise = options.parametric;
   for (const double z_m : {1.5, 2.0, 3.0, 3.6}) {
     // A tilt of one degree runs through many quantisation steps.
-    const DepthFrame frame = Seen({}, WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.0175});
+    const ExplainedDepth frame = Seen({}, WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.0175});
     const CameraModel camera = CameraModel::Pinhole(320, 240, 285.63);
     double sum2 = 0.0;
     int count = 0;
@@ -131,7 +131,7 @@ TEST(StructuredLightSensorTest, NothingReturnsFromOutsideTheRange) {
 
 TEST(StructuredLightSensorTest, TheProjectorsShadowIsLeftOfTheForegroundAndAsWideAsGeometrySays) {
   // Plate at 2 m, wall at 3 m: f b (1/2 - 1/3) = 7.14 px at 640, half of it at 320 px.
-  const DepthFrame frame = Seen(Noiseless(), BoxBeforeWall(0.3, 1.0), {.distance_m = 3.0});
+  const ExplainedDepth frame = Seen(Noiseless(), BoxBeforeWall(0.3, 1.0), {.distance_m = 3.0});
   int first = -1;
   int last = -1;
   for (int u = 0; u < 320; ++u) {
@@ -153,7 +153,7 @@ TEST(StructuredLightSensorTest, BlackPaintIsLostBetween1And2Metres) {
     PaperTargetOptions options;
     options.wall_reflectance_830nm = reflectance;
     options.with_target = false;
-    const DepthFrame frame = Seen({}, MakePaperTarget(options), {.distance_m = distance_m});
+    const ExplainedDepth frame = Seen({}, MakePaperTarget(options), {.distance_m = distance_m});
     // Near the axis: towards the corners obliquity and distance cost half of the light.
     return cv::countNonZero(frame.depth.raw(cv::Rect(120, 90, 80, 60))) / 4800.0;
   };
@@ -166,7 +166,7 @@ TEST(StructuredLightSensorTest, BlackPaintIsLostBetween1And2Metres) {
 TEST(StructuredLightSensorTest, AmbientLightDrownsTheDots) {
   Lighting sunny;
   sunny.sky.illuminance_lx = 40e3;
-  const DepthFrame drowned = Seen({}, WhiteWall(), {.distance_m = 2.0}, sunny);
+  const ExplainedDepth drowned = Seen({}, WhiteWall(), {.distance_m = 2.0}, sunny);
   EXPECT_EQ(cv::countNonZero(drowned.depth.raw), 0);
   Lighting lamps = sunny;
   lamps.irradiance_830_per_lux = 0.0;  // As many lux from LED lamps do no harm.
@@ -174,7 +174,7 @@ TEST(StructuredLightSensorTest, AmbientLightDrownsTheDots) {
 }
 
 TEST(StructuredLightSensorTest, AtAFlatAngleNothingReturns) {
-  const DepthFrame frame =
+  const ExplainedDepth frame =
       Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 80.0 * 3.14159265 / 180.0});
   EXPECT_EQ(static_cast<NoReturn>(frame.no_return(120, 160)), NoReturn::kGrazing);
 }
@@ -183,7 +183,7 @@ TEST(StructuredLightSensorTest, GlassLetsThePatternThroughToTheRoom) {
   FacadeOptions options;
   options.room.depth_m = 1.0;
   options.room.paint.reflectance_830nm = 0.8;
-  const DepthFrame frame = Seen(Noiseless(), MakeFacade(options), {.distance_m = 1.5});
+  const ExplainedDepth frame = Seen(Noiseless(), MakeFacade(options), {.distance_m = 1.5});
   // Centre of the window: the room's back wall at 1.5 + 0.3 + 1.0 m.
   EXPECT_NEAR(frame.depth.raw(120, 160) * 0.001, 2.8, 0.5 * 2.85e-3 * 2.8 * 2.8 + 0.001);
 }
@@ -206,7 +206,7 @@ TEST(StructuredLightSensorTest, RegisteredDepthLiesWhereTheColourCameraSeesIt) {
   const StructuredLightSensor sensor(options);
   const RayCaster caster(BoxBeforeWall(0.3, 1.0));
   const Pose X_WB = RigPose({.distance_m = 3.0}, Pose());
-  const DepthFrame frame = sensor.ObserveDepth(caster, {}, X_WB, RandomStream(1));
+  const ExplainedDepth frame = sensor.ObserveDepth(caster, {}, X_WB, RandomStream(1));
   const cv::Mat1f truth_m = sensor.PixelTruth(caster, {}, X_WB).aovs.depth_m;
   int wrong = 0;
   int lost = 0;
@@ -247,7 +247,7 @@ TEST(StructuredLightSensorTest, OddPosesNeitherCrashNorInventDepth) {
     const Eigen::Vector3d p_WB(3 * stream.Normal(6 * i + 3), 3 * stream.Normal(6 * i + 4),
                                3 * stream.Normal(6 * i + 5));
     const Pose X_WB(RotationFromVector(2.0 * axis), p_WB);
-    const DepthFrame frame = sensor.ObserveDepth(caster, {}, X_WB, stream.Child("pose", i));
+    const ExplainedDepth frame = sensor.ObserveDepth(caster, {}, X_WB, stream.Child("pose", i));
     const AovImages truth = sensor.PixelTruth(caster, {}, X_WB).aovs;
     for (int v = 0; v < 48; ++v) {
       for (int u = 0; u < 64; ++u) {
