@@ -18,7 +18,8 @@ void CheckDepthUnit(const RgbdCalibration& calibration);
 /// calibration.
 void CheckFits(const RgbdObservation& observation, const RgbdCalibration& calibration);
 
-/// Returns the camera without its distortion.
+/// Returns the camera without its distortion: a pinhole with the same focal lengths, principal
+/// point and image size.
 CameraModel WithoutDistortion(const CameraModel& camera);
 
 /// Map for cv::remap: the place in the distorted image of each pixel of the camera without
@@ -32,7 +33,8 @@ cv::Mat3b DrawDepth(const cv::Mat1f& depth_m);
 /// Converts a colour image to grey values that are linear in the light: the mean of its channels,
 /// decoded from sRGB (IEC 61966-2-1), times a factor of at least 1 that brings the 98th percentile
 /// to 200 DN, so that rounding adds little to the noise of a dark image; clipped at 255. An edge
-/// between two areas is a blurred step in this image, but not in the encoded one.
+/// between two areas is a blurred step in this image, but not in the encoded one. An empty image
+/// gives an empty one.
 cv::Mat1b LinearGrey(const cv::Mat3b& color);
 
 }  // namespace fenestra
