@@ -1,4 +1,4 @@
-#include "vision/frame/model/frame_knowledge.h"
+#include "vision/frame/model/frame_prior.h"
 
 #include <cmath>
 
