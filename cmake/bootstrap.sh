@@ -47,3 +47,16 @@ build_preset() {
     ninja -C "$folder" "$@" >&2 || exit 3
   fi
 }
+
+# bring_up_to_date PRESET [TARGET...]: the packages and the build. One call at a time: others wait.
+bring_up_to_date() {
+  mkdir -p build
+  (
+    if ! flock --nonblock 9; then
+      echo "Waiting for another call that is building" >&2
+      flock 9
+    fi
+    install_packages
+    build_preset "$@"
+  ) 9>build/lock
+}

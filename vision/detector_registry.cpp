@@ -24,7 +24,7 @@ std::vector<Entry> BuiltIn() {
        FactoryFor<PaperStereoDetector, StereoCalibration>(PaperStereoParameters())},
       {{.name = "edge-stereo",
         .sensor = SensorKind::kStereo,
-        .description = "A dark frame's edges in both images, one rectangle fitted to all",
+        .description = "A dark frame's edges in both images, with one rectangle fitted to all",
         .options = EdgeStereoParameters().infos()},
        FactoryFor<EdgeStereoDetector, StereoCalibration>(EdgeStereoParameters())},
       {{.name = "paper-rgbd",
@@ -34,7 +34,8 @@ std::vector<Entry> BuiltIn() {
        FactoryFor<PaperRgbdDetector, RgbdCalibration>(PaperRgbdParameters())},
       {{.name = "plane-rgbd",
         .sensor = SensorKind::kRgbd,
-        .description = "A dark frame's edges in colour, the wall's plane in depth, one rectangle",
+        .description = "A dark frame's edges in colour and the wall's plane in depth, with one "
+                       "rectangle fitted",
         .options = PlaneRgbdParameters().infos()},
        FactoryFor<PlaneRgbdDetector, RgbdCalibration>(PlaneRgbdParameters())},
   };
@@ -49,7 +50,7 @@ struct Registry {
   }
 };
 
-// What is registered stays: the one thing here that outlives its callers.
+// The registry is the only global state here; detectors stay registered.
 Registry& TheRegistry() {
   static Registry registry;
   return registry;

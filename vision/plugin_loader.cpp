@@ -36,7 +36,7 @@ void* Open(const std::filesystem::path& library) {
   if (!std::filesystem::is_regular_file(library, error)) {
     throw InputError(library, "there is no such file");
   }
-  // Absolute, or dlopen would look for a bare name among the system's libraries.
+  // The path is made absolute, since dlopen looks for a bare name among the system's libraries.
   void* const handle = dlopen(std::filesystem::absolute(library).c_str(), RTLD_NOW | RTLD_LOCAL);
   if (handle == nullptr) {
     throw InputError(library, fmt::format("cannot be loaded: {}", dlerror()));

@@ -20,38 +20,40 @@ constexpr double kSigmas = 5.0;
 void AddGeometry(Table& table) {
   table
       .Number("expected_width_m", FENESTRA_FIELD(expected_width_m), {0.0, 1000.0},
-              "outer width that the window is known to have; 0: not known")
+              "Known outer width of the window; 0: not known.")
       .Number("expected_height_m", FENESTRA_FIELD(expected_height_m), {0.0, 1000.0},
-              "outer height that the window is known to have; 0: not known")
+              "Known outer height of the window; 0: not known.")
       .Number("expected_size_sigma_m", FENESTRA_FIELD(expected_size_sigma_m), {1e-6, 10.0},
-              "standard deviation of that knowledge")
+              "Standard deviation of the known width and height.")
       .Number("expected_aspect", FENESTRA_FIELD(expected_aspect), {0.0, 100.0},
-              "width over height that the window is known to have; 0: not known")
+              "Known ratio of the window's width to its height; 0: not known.")
       .Number("expected_aspect_tolerance", FENESTRA_FIELD(expected_aspect_tolerance), {1e-3, 1.0},
-              "largest relative departure from that")
+              "Largest relative departure from expected_aspect.")
       .Choice("expected_shape", FENESTRA_FIELD(expected_shape),
               {"any", "rectangle", "upright_rectangle"},
-              "shape that the window is known to have; upright: not rolled in the image")
+              "Known shape of the window; upright: not rolled in the image.")
       .Number("expected_angle_tolerance_deg", FENESTRA_FIELD(expected_angle_tolerance_rad),
-              {0.1, 45.0, kDegree}, "largest departure of a corner or a side from that shape");
+              {0.1, 45.0, kDegree}, "Largest departure of a corner or a side from expected_shape.");
 }
 
 void AddColor(Table& table) {
   table
       .Integer("expected_red_dn", FENESTRA_FIELD(expected_red_dn), {-1, 255},
-               "the frame's colour if it is known, red; -1: not known")
-      .Integer("expected_green_dn", FENESTRA_FIELD(expected_green_dn), {-1, 255}, "green")
-      .Integer("expected_blue_dn", FENESTRA_FIELD(expected_blue_dn), {-1, 255}, "blue")
+               "Red channel of the frame's known colour; -1: not known.")
+      .Integer("expected_green_dn", FENESTRA_FIELD(expected_green_dn), {-1, 255},
+               "Green channel of the frame's known colour; -1: not known.")
+      .Integer("expected_blue_dn", FENESTRA_FIELD(expected_blue_dn), {-1, 255},
+               "Blue channel of the frame's known colour; -1: not known.")
       .Integer("expected_color_tolerance_dn", FENESTRA_FIELD(expected_color_tolerance_dn), {0, 255},
-               "largest departure from that in any channel");
+               "Largest departure from that colour in any channel.");
 }
 
 void AddGrey(Table& table) {
   table
       .Number("expected_grey_ratio", FENESTRA_FIELD(expected_grey_ratio), {0.0, 1.0},
-              "grey value of the frame over that of the wall if it is known; 0: not known")
+              "Known ratio of the frame's grey value to that of the wall; 0: not known.")
       .Number("expected_grey_tolerance", FENESTRA_FIELD(expected_grey_tolerance), {1e-3, 1.0},
-              "largest departure from that");
+              "Largest departure from expected_grey_ratio.");
 }
 
 double Angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -137,7 +139,7 @@ std::optional<Miss> ObjectionOf(const WindowPrior& prior, const WindowEstimate& 
   }
   if (prior.expected_aspect > 0.0) {
     const double aspect = width_m / height_m;
-    // !(<=), so that a window without height is refused.
+    // Written as !(<=) so that a window without height is refused.
     if (!(std::abs(aspect / prior.expected_aspect - 1.0) <= prior.expected_aspect_tolerance)) {
       return Miss{"unexpected_shape", fmt::format("width over height is {:.2f} instead of {:.2f}",
                                                   aspect, prior.expected_aspect)};

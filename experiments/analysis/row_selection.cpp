@@ -65,30 +65,32 @@ bool ConcernsAnyPart(const Study& study, const std::string& factor) {
   });
 }
 
-std::vector<std::string> Faults(const Study& study, const Condition& condition) {
+std::vector<std::string> ObjectionsTo(const Study& study, const Condition& condition) {
   const std::vector<std::string> known = KnownWords(study, condition.name);
   if (known.empty()) {
     if (ConcernsAnyPart(study, condition.name)) return {};
     return {fmt::format("{} has no effect in any part of '{}'", condition.name, study.name)};
   }
-  std::vector<std::string> faults;
+  std::vector<std::string> objections;
   for (const ParameterValue& value : condition.values) {
     const std::string& word = std::get<std::string>(value);
     if (std::find(known.begin(), known.end(), word) != known.end()) continue;
-    faults.push_back(fmt::format("'{}' has no {} '{}'.{}", study.name, condition.name, word,
-                                 DidYouMean(word, known)));
+    objections.push_back(fmt::format("'{}' has no {} '{}'.{}", study.name, condition.name, word,
+                                     DidYouMean(word, known)));
   }
-  return faults;
+  return objections;
 }
 
 }  // namespace
 
-RowSelection::RowSelection(const Study& study) : study_(study), cells_(Cells(study)) {}
+RowSelection::RowSelection(const Study& study, std::span<const Cell> cells)
+    : study_(study), cells_(cells) {}
 
 std::vector<std::string> RowSelection::Objections(std::span<const Condition> where) const {
   std::vector<std::string> objections;
   for (const Condition& condition : where) {
-    for (std::string& message : Faults(study_, condition)) objections.push_back(std::move(message));
+    for (std::string& message : ObjectionsTo(study_, condition))
+      objections.push_back(std::move(message));
   }
   return objections;
 }

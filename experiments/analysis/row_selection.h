@@ -24,7 +24,8 @@ struct Condition {
 /// else the cell's level, else what the study fixes.
 class RowSelection {
  public:
-  explicit RowSelection(const Study& study);
+  /// Keeps references to both.
+  RowSelection(const Study& study, std::span<const Cell> cells);
 
   /// What is wrong with conditions: a detector, part or sensor that the study does not have, a
   /// factor that concerns none of its parts.
@@ -40,8 +41,8 @@ class RowSelection {
   bool Matches(const TrialRecord& row, const Condition& condition) const;
   std::optional<ParameterValue> ValueOf(const TrialRecord& row, const std::string& name) const;
 
-  Study study_;
-  std::vector<Cell> cells_;
+  const Study& study_;
+  std::span<const Cell> cells_;
 };
 
 }  // namespace fenestra

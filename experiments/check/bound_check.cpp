@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-#include "core/io/input_error.h"
+#include "core/io/faults.h"
 #include "experiments/analysis/row_selection.h"
 #include "experiments/check/estimation.h"
 #include "experiments/check/regression.h"
@@ -146,13 +146,13 @@ std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
 
 void CheckConditions(const std::string& source, std::span<const Bound> bounds,
                      const RowSelection& selection) {
-  std::vector<InputFault> faults;
+  Faults faults(source);
   for (const Bound& bound : bounds) {
     for (const std::string& message : selection.Objections(bound.where)) {
-      faults.push_back({.source = source, .line = bound.line, .message = message});
+      faults.AddFault({.line = bound.line, .message = message});
     }
   }
-  if (!faults.empty()) throw InputError(faults);
+  faults.ThrowIfAny();
 }
 
 std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& selection,
@@ -200,21 +200,22 @@ int CheckResult::Count(Verdict verdict) const {
 
 CheckResult CheckBounds(const std::string& source, const BoundFile& file, const Study& study,
                         std::span<const TrialRecord> rows, std::span<const TrialRecord> baseline) {
-  const RowSelection selection(study);
+  const std::vector<Cell> cells = Cells(study);
+  const RowSelection selection(study, cells);
   CheckConditions(source, file.bounds, selection);
   const std::vector<SelectedRow> selected = Pair("--baseline", selection, rows, baseline);
-  std::vector<InputFault> faults;
+  Faults faults(source);
   std::vector<Task> tasks;
   for (const Bound& bound : file.bounds) {
     const std::vector<Task> own = TasksOf(bound, selection, selected);
     const auto note = [&](const char* message) {
-      faults.push_back({.source = source, .line = bound.line, .message = message});
+      faults.AddFault({.line = bound.line, .message = message});
     };
     if (own.empty()) note("this bound matches no trial of the results");
     if (bound.to_baseline && baseline.empty()) note("this bound needs --baseline");
     tasks.insert(tasks.end(), own.begin(), own.end());
   }
-  if (!faults.empty()) throw InputError(faults);
+  faults.ThrowIfAny();
 
   std::map<std::string, std::vector<SelectedRow>> by_detector;
   if (!baseline.empty()) {

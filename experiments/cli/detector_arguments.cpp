@@ -52,9 +52,8 @@ const DetectorInfo& DetectorFor(const std::string& name, SensorKind sensor) {
 
 std::vector<std::string> WordsOf(const std::string& command) {
   YamlReader reader = YamlReader::FromText(command, "--command");
-  std::vector<std::string> words;
   if (reader.root().IsScalar()) return {command};
-  ReadCommand(reader, reader.root(), words);
+  std::vector<std::string> words = ReadCommand(reader, reader.root());
   reader.ThrowIfFaulty();
   return words;
 }

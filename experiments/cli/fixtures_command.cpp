@@ -65,9 +65,9 @@ std::set<FixtureFormat> FormatsOf(const std::vector<std::string>& names) {
   return formats;
 }
 
-void PrintTrials(const FixtureOrder& order, const std::vector<Cell>& cells) {
+void PrintTrials(const FixtureOrder& order) {
   for (const TrialKey& key : order.trials) {
-    const Cell& cell = cells[static_cast<size_t>(key.cell)];
+    const Cell& cell = order.cells[static_cast<size_t>(key.cell)];
     fmt::print("{}/{} {} {}{}{}\n", key.cell, key.trial, cell.part, ToString(cell.sensor),
                cell.levels.empty() ? "" : " ", LevelsText(cell.levels));
   }
@@ -83,11 +83,11 @@ FixtureOrder OrderOf(const FixtureArguments& arguments) {
   FixtureOrder order;
   ReadStudyInto(order, arguments.study);
   if (arguments.seed) order.study.seed = *arguments.seed;
-  const std::vector<Cell> cells = Cells(order.study);
-  order.trials = SelectTrials(order.study, cells, arguments.selection);
+  order.cells = Cells(order.study);
+  order.trials = SelectTrials(order.study, order.cells, arguments.selection);
   const auto& names = arguments.formats;
   const bool all = std::find(names.begin(), names.end(), "all") != names.end();
-  order.formats = UsefulFormats(FormatsOf(names), cells, order.trials, all);
+  order.formats = UsefulFormats(FormatsOf(names), order.cells, order.trials, all);
   order.out = arguments.out;
   order.jobs = JobsOrAll(arguments.jobs);
   return order;
@@ -95,12 +95,11 @@ FixtureOrder OrderOf(const FixtureArguments& arguments) {
 
 int MakeFixtures(const FixtureArguments& arguments) {
   FixtureOrder order = OrderOf(arguments);
-  const std::vector<Cell> cells = Cells(order.study);
   const std::string what = fmt::format("{} trial{} of '{}'", order.trials.size(),
                                        order.trials.size() == 1 ? "" : "s", order.study.name);
-  const std::string estimate = Bytes(static_cast<double>(EstimatedBytes(order, cells)));
+  const std::string estimate = Bytes(static_cast<double>(EstimatedBytes(order)));
   if (arguments.dry_run) {
-    PrintTrials(order, cells);
+    PrintTrials(order);
     fmt::print("{}, about {}; nothing was written\n", what, estimate);
     return kDone;
   }

@@ -53,8 +53,8 @@ void RenderTrial(const RenderArguments& arguments) {
   if (arguments.trial < 0) {
     throw InputError("--trial", fmt::format("must not be negative, but is {}", arguments.trial));
   }
-  const CellBench bench(study, cell);
-  WriteTrialFiles(arguments.out, bench, bench.Simulate(arguments.trial));
+  const CellRunner runner(study, cell);
+  WriteTrialFiles(arguments.out, runner, runner.Simulate(arguments.trial));
   fmt::print("Cell {} trial {} of '{}' is in {}\n", arguments.cell, arguments.trial, study.name,
              arguments.out.string());
 }

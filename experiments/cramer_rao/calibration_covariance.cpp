@@ -49,8 +49,9 @@ PairMatrix OfTolerances(const StereoRigOptions& options) {
 
 }  // namespace
 
-std::optional<PairMatrix> CalibrationLaw(const StereoRig& rig, const CalibrationChoice& choice,
-                                         const std::optional<PairMatrix>& boards) {
+std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
+                                                const CalibrationChoice& choice,
+                                                const std::optional<PairMatrix>& boards) {
   const Eigen::Vector3d p_RL = rig.cameras().X_RL.translation();
   switch (choice.source) {
     case CalibrationSource::kExact:

@@ -8,11 +8,11 @@
 
 namespace fenestra {
 
-/// How far what detectors are told of this rig may be from the truth, to first order: the
-/// covariance of PairError, by the law that the choice draws from. nullopt: it is the truth.
-/// `boards`: the covariance that a calibration with boards states of itself; it must be there for
-/// kBoards and kStale.
-std::optional<PairMatrix> CalibrationLaw(const StereoRig& rig, const CalibrationChoice& choice,
+/// Covariance of the error of this rig's nominal calibration (PairError), to first order, under the
+/// distribution that the choice draws from. nullopt: the calibration is exact. `boards`: the
+/// covariance that a calibration with boards estimates for itself; it must be there for kBoards and
+/// kStale.
+std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig, const CalibrationChoice& choice,
                                          const std::optional<PairMatrix>& boards);
 
 }  // namespace fenestra

@@ -21,7 +21,7 @@ struct Node {
 };
 using Nodes = std::vector<Node>;
 
-std::optional<Node> NodeAt(const FrameState& frame, const PictureView& view, FrameEdge edge,
+std::optional<Node> NodeAt(const FrameState& frame, const ElectronPicture& view, FrameEdge edge,
                            const Eigen::Vector2d& place, int unknowns) {
   const FramePoint point = PointOn(frame, edge, place);
   const auto seen = view.camera.Linearise(view.X_VC * point.p_CQ);
@@ -48,7 +48,7 @@ Eigen::Vector2d PlaceOn(int side, double t) {
   return places[static_cast<size_t>(side)];
 }
 
-std::optional<Nodes> NodesOf(const FrameState& frame, const PictureView& view, FrameEdge edge,
+std::optional<Nodes> NodesOf(const FrameState& frame, const ElectronPicture& view, FrameEdge edge,
                              int side, int unknowns) {
   Nodes nodes;
   for (int i = 0; i <= kSegments; ++i) {
@@ -62,7 +62,7 @@ std::optional<Nodes> NodesOf(const FrameState& frame, const PictureView& view, F
 // One side of the frame in one picture.
 class Side {
  public:
-  Side(const PictureView& view, Nodes outer, Nodes inner, int level_unknown)
+  Side(const ElectronPicture& view, Nodes outer, Nodes inner, int level_unknown)
       : view_(view),
         outer_(std::move(outer)),
         inner_(std::move(inner)),
@@ -211,7 +211,7 @@ class Side {
     return by_unknowns.transpose() * profile * by_unknowns;
   }
 
-  const PictureView& view_;
+  const ElectronPicture& view_;
   Nodes outer_;
   Nodes inner_;
   int level_unknown_;
@@ -223,7 +223,7 @@ class Side {
 
 }  // namespace
 
-std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const PictureView& view,
+std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const ElectronPicture& view,
                                                   int unknowns) {
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(unknowns, unknowns);
   for (int side = 0; side < kSides; ++side) {

@@ -15,7 +15,7 @@ inline constexpr int kSides = 4;
 inline constexpr int kLevelsOfPicture = 3 * kSides;
 
 /// One picture of a frame, and where its own unknowns stand among all.
-struct PictureView {
+struct ElectronPicture {
   const CameraModel& camera;
   Pose X_VC;                   ///< From the scored camera C to this one.
   const cv::Mat1f& electrons;  ///< Expected in each pixel, without noise.
@@ -36,7 +36,7 @@ struct PictureView {
 /// If more than 64 lines cross a side, evenly chosen ones count for the others.
 ///
 /// nullopt if the camera does not see all corners.
-std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const PictureView& view,
+std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const ElectronPicture& view,
                                                   int unknowns);
 
 }  // namespace fenestra

@@ -40,7 +40,7 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
   for (int channel = 0; channel < kChannels; ++channel) {
     const double scale = blur[static_cast<size_t>(channel)];
     const cv::Mat1f electrons = Decoded(color, channel, noise.full_scale_e());
-    const PictureView view{.camera = cameras.color,
+    const ElectronPicture view{.camera = cameras.color,
                            .X_VC = cameras.X_KD,
                            .electrons = electrons,
                            .noise = noise,

@@ -16,7 +16,7 @@ constexpr int kPairUnknowns = kPairLevels + 2 * kLevelsOfPicture;
 std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
                                                  const StereoPictures& pictures) {
   const StereoCalibration& cameras = pictures.cameras;
-  const PictureView left{.camera = cameras.left,
+  const ElectronPicture left{.camera = cameras.left,
                          .X_VC = Pose(),
                          .electrons = pictures.left_e,
                          .noise = pictures.noise,
@@ -24,7 +24,7 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
                          .blur_unknown = kPairBlurs,
                          .level_unknown = kPairLevels,
                          .camera_unknown = kPair};
-  const PictureView right{.camera = cameras.right,
+  const ElectronPicture right{.camera = cameras.right,
                           .X_VC = cameras.X_RL,
                           .electrons = pictures.right_e,
                           .noise = pictures.noise,

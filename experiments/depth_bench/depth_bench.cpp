@@ -8,7 +8,7 @@
 namespace fenestra {
 namespace {
 
-Scene Wall(double reflectance_830nm, const DepthBench::Plate& plate) {
+Scene Wall(double reflectance_830nm, const WallSetup::Plate& plate) {
   PaperTargetOptions options;
   options.with_target = false;
   Scene scene = MakePaperTarget(options);
@@ -46,25 +46,25 @@ double WallPerSky(const Scene& wall) {
 
 }  // namespace
 
-DepthBench::DepthBench(const StructuredLightOptions& options, double reflectance_830nm,
-                       const Plate& plate, const RandomStream& stream)
+WallSetup::WallSetup(const StructuredLightOptions& options, double reflectance_830nm,
+                     const Plate& plate, const RandomStream& stream)
     : sensor_(options),
       caster_(Wall(reflectance_830nm, plate)),
       stream_(stream),
       wall_per_sky_(WallPerSky(Wall(reflectance_830nm, {}))) {}
 
-DepthImage DepthBench::See(const Viewpoint& viewpoint, double wall_lx, uint64_t frame) const {
+DepthImage WallSetup::See(const Viewpoint& viewpoint, double wall_lx, uint64_t image) const {
   return sensor_
       .ObserveDepth(caster_, UnderSky(wall_lx / wall_per_sky_), RigPose(viewpoint, Pose()),
-                    stream_.Child("view", frame))
+                    stream_.Child("view", image))
       .depth;
 }
 
-double DepthBench::TemporalNoise(const Viewpoint& viewpoint) const {
-  // The sensor's own averaging of frames shares the laser's speckle among them; so do these.
-  constexpr int kFrames = 12;
+double WallSetup::TemporalNoise(const Viewpoint& viewpoint) const {
+  // The sensor's own averaging of images shares the laser's speckle among them; so do these.
+  constexpr int kImages = 12;
   StructuredLightOptions averaging = sensor_.options();
-  averaging.averaged_frames = kFrames;
+  averaging.averaged_frames = kImages;
   const DepthImage mean = StructuredLightSensor(averaging)
                               .ObserveDepth(caster_, UnderSky(kIndoors_lx / wall_per_sky_),
                                             RigPose(viewpoint, Pose()), stream_.Child("view", 0))
@@ -80,8 +80,8 @@ double DepthBench::TemporalNoise(const Viewpoint& viewpoint) const {
       ++count;
     }
   }
-  // The one frame is a part of the mean.
-  return std::sqrt(sum / count * kFrames / (kFrames - 1.0));
+  // The one image is a part of the mean.
+  return std::sqrt(sum / count * kImages / (kImages - 1.0));
 }
 
 cv::Rect MiddleOf(const cv::Mat& image) {

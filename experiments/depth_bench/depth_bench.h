@@ -10,7 +10,7 @@ namespace fenestra {
 
 /// A structured-light sensor before a large wall of one paint, alone or with a plate of the same
 /// paint in front of it.
-class DepthBench {
+class WallSetup {
  public:
   struct Plate {
     double stand_off_m = 0.0;   ///< Distance of its middle from the wall.
@@ -18,14 +18,15 @@ class DepthBench {
     double turn_rad = 0.0;      ///< About its upright middle.
   };
 
-  DepthBench(const StructuredLightOptions& options, double reflectance_830nm, const Plate& plate,
-             const RandomStream& stream);
+  WallSetup(const StructuredLightOptions& options, double reflectance_830nm, const Plate& plate,
+            const RandomStream& stream);
 
-  /// `wall_lx`: of daylight on the wall; `frame`: tells noise and laser speckle from others'.
+  /// `wall_lx`: illuminance of the wall by daylight; `image`: images of other numbers have other
+  /// noise and laser speckle.
   DepthImage See(const Viewpoint& viewpoint, double wall_lx = kIndoors_lx,
-                 uint64_t frame = 0) const;
+                 uint64_t image = 0) const;
 
-  /// RMS of a pixel's depth over frames around its mean, over pixels that always have a return [m].
+  /// RMS of a pixel's depth over images around its mean, over pixels that always have a return [m].
   double TemporalNoise(const Viewpoint& viewpoint) const;
 
   /// A wall gets six tenths of the 300 lx that the sky gives on level ground.

@@ -71,12 +71,12 @@ std::vector<DepthCurves::Lateral> MeasureLateral(const StructuredLightOptions& o
   constexpr double kStandOff_m = 0.8;
   std::vector<DepthCurves::Lateral> curve;
   for (const double angle_deg : {0.0, 20.0, 40.0, 50.0, 60.0, 70.0}) {
-    const DepthBench bench(
-        InFullResolution(options), DepthBench::kWhite,
+    const WallSetup wall(
+        InFullResolution(options), WallSetup::kWhite,
         {.stand_off_m = kStandOff_m, .half_width_m = 0.35, .turn_rad = angle_deg * kDegree},
         stream);
     DepthCurves::Lateral at =
-        BordersOf(bench.See({.distance_m = kPlate_m + kStandOff_m}), kPlate_m + 0.6 * kStandOff_m);
+        BordersOf(wall.See({.distance_m = kPlate_m + kStandOff_m}), kPlate_m + 0.6 * kStandOff_m);
     at.angle_rad = angle_deg * kDegree;
     curve.push_back(at);
   }
@@ -88,7 +88,7 @@ std::vector<DepthCurves::Lateral> MeasureLateral(const StructuredLightOptions& o
 double StepAt(const StructuredLightOptions& options, double z_m, const RandomStream& stream) {
   constexpr int kViews = 8;
   constexpr double kSpacing = 0.00125;
-  const DepthBench wall(options, DepthBench::kWhite, {}, stream);
+  const WallSetup wall(options, WallSetup::kWhite, {}, stream);
   std::set<uint16_t> levels;
   double unit_m = 0.0;
   for (int i = 0; i < kViews; ++i) {
@@ -123,13 +123,13 @@ DepthCurves::Shadow MeasureShadow(const StructuredLightOptions& options, double 
   for (int i = 0; i < kPlates; ++i) {
     // Outlines that cross pixels at different places.
     const double half_px = (60.0 + 13.37 * i) * full.depth_width_px / 640.0;
-    const DepthBench bench(full, DepthBench::kWhite,
-                           {.stand_off_m = wall_m - plate_m,
-                            .half_width_m = plate_m * half_px / full.depth_focal_px,
-                            .turn_rad = 0.0},
-                           stream);
+    const WallSetup wall(full, WallSetup::kWhite,
+                         {.stand_off_m = wall_m - plate_m,
+                          .half_width_m = plate_m * half_px / full.depth_focal_px,
+                          .turn_rad = 0.0},
+                         stream);
     const cv::Mat1w raw =
-        bench.See({.distance_m = wall_m}, DepthBench::kIndoors_lx, static_cast<uint64_t>(i)).raw;
+        wall.See({.distance_m = wall_m}, WallSetup::kIndoors_lx, static_cast<uint64_t>(i)).raw;
     // Rows across the plate; columns whose windows lie in the image.
     const cv::Rect rows(raw.cols / 32, raw.rows * 2 / 5, raw.cols * 15 / 16, raw.rows / 5);
     const cv::Mat1b holes = raw(rows) == 0;
@@ -155,7 +155,7 @@ double HalfPoint(const std::vector<cv::Point2d>& x_and_share) {
 
 DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const RandomStream& stream) {
   DepthCurves curves;
-  const DepthBench white(options, DepthBench::kWhite, {}, stream);
+  const WallSetup white(options, WallSetup::kWhite, {}, stream);
   for (const double z_m : {0.9, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 3.9}) {
     const Viewpoint viewpoint{.distance_m = z_m, .azimuth_rad = kTilt};
     const DepthImage depth = white.See(viewpoint);
@@ -179,7 +179,7 @@ DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const Rand
     }
   }
   for (const double reflectance : {0.05, 0.10, 0.20, 0.40}) {
-    const DepthBench painted(options, reflectance, {}, stream);
+    const WallSetup painted(options, reflectance, {}, stream);
     for (const double z_m : {0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.3, 2.7, 3.1, 3.5}) {
       curves.by_paint.push_back({.reflectance_830nm = reflectance,
                                  .z_m = z_m,

@@ -136,7 +136,7 @@ std::string AmbientTables(const StructuredLightOptions& options, const DepthCurv
   const std::vector<ShareCurve> speckle = AmbientCurves(s);
   for (size_t i = 0; i < speckle.size(); ++i) {
     const double z_m = speckle[i].level;
-    const ReachPrediction predicted = PredictedAmbientLimit(options, DepthBench::kWhite, z_m);
+    const ReachPrediction predicted = PredictedAmbientLimit(options, WallSetup::kWhite, z_m);
     const double measured = HalfPoint(speckle[i].x_and_share);
     halves.AddRow({Number(z_m), Number(predicted.lux),
                    predicted.by_saturation ? "saturation" : "acceptance",

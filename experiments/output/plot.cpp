@@ -84,40 +84,41 @@ std::vector<double> RoundTicks(double low, double high, int count) {
   return ticks;
 }
 
-Plot::Plot(cv::Mat3b& canvas, const PlotFrame& frame)
+Plot::Plot(cv::Mat3b& canvas, const PlotLayout& layout)
     : canvas_(canvas),
-      frame_(frame),
-      inner_(frame.area.x + 66, frame.area.y + 28, frame.area.width - 84, frame.area.height - 72) {
-  Write(canvas_, frame_.title, {inner_.x + inner_.width / 2, frame_.area.y + 18}, Anchor::kCentre,
+      layout_(layout),
+      inner_(layout.area.x + 66, layout.area.y + 28, layout.area.width - 84,
+             layout.area.height - 72) {
+  Write(canvas_, layout_.title, {inner_.x + inner_.width / 2, layout_.area.y + 18}, Anchor::kCentre,
         0.48);
   DrawTicks();
   cv::rectangle(canvas_, inner_, kInk, 1);
-  Write(canvas_, frame_.x.label, {inner_.x + inner_.width / 2, inner_.br().y + 36},
+  Write(canvas_, layout_.x.label, {inner_.x + inner_.width / 2, inner_.br().y + 36},
         Anchor::kCentre);
-  WriteUpwards(canvas_, frame_.y.label, {frame_.area.x + 12, inner_.y + inner_.height / 2});
+  WriteUpwards(canvas_, layout_.y.label, {layout_.area.x + 12, inner_.y + inner_.height / 2});
 }
 
 void Plot::DrawTicks() const {
-  for (const double tick : TicksOf(frame_.x)) {
-    const int x = static_cast<int>(Place({tick, frame_.y.low}).x);
+  for (const double tick : TicksOf(layout_.x)) {
+    const int x = static_cast<int>(Place({tick, layout_.y.low}).x);
     cv::line(canvas_, {x, inner_.y}, {x, inner_.br().y}, kGrid, 1);
-    WriteWithin(canvas_, fmt::format("{:g}", tick), {x, inner_.br().y + 17}, frame_.area.br().x);
+    WriteWithin(canvas_, fmt::format("{:g}", tick), {x, inner_.br().y + 17}, layout_.area.br().x);
   }
-  for (const double tick : TicksOf(frame_.y)) {
-    const int y = static_cast<int>(Place({frame_.x.low, tick}).y);
+  for (const double tick : TicksOf(layout_.y)) {
+    const int y = static_cast<int>(Place({layout_.x.low, tick}).y);
     cv::line(canvas_, {inner_.x, y}, {inner_.br().x, y}, kGrid, 1);
     Write(canvas_, fmt::format("{:g}", tick), {inner_.x - 5, y + 4}, Anchor::kRight);
   }
 }
 
 cv::Point2d Plot::Place(cv::Point2d point) const {
-  return {inner_.x + Fraction(frame_.x, point.x) * inner_.width,
-          inner_.br().y - Fraction(frame_.y, point.y) * inner_.height};
+  return {inner_.x + Fraction(layout_.x, point.x) * inner_.width,
+          inner_.br().y - Fraction(layout_.y, point.y) * inner_.height};
 }
 
 bool Plot::Contains(cv::Point2d point) const {
-  return point.x >= frame_.x.low && point.x <= frame_.x.high && point.y >= frame_.y.low &&
-         point.y <= frame_.y.high;
+  return point.x >= layout_.x.low && point.x <= layout_.x.high && point.y >= layout_.y.low &&
+         point.y <= layout_.y.high;
 }
 
 void Plot::Points(std::span<const cv::Point2d> points, const cv::Scalar& color,
@@ -141,8 +142,8 @@ void Plot::Line(std::span<const cv::Point2d> points, const cv::Scalar& color,
 }
 
 void Plot::VerticalMark(double x, const std::string& label) {
-  if (x < frame_.x.low || x > frame_.x.high) return;
-  const int column = static_cast<int>(Place({x, frame_.y.low}).x);
+  if (x < layout_.x.low || x > layout_.x.high) return;
+  const int column = static_cast<int>(Place({x, layout_.y.low}).x);
   constexpr int kDash = 6;
   for (int y = inner_.y; y < inner_.br().y; y += 2 * kDash) {
     cv::line(canvas_, {column, y}, {column, std::min(y + kDash, inner_.br().y)}, kInk, 1);

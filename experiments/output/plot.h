@@ -15,7 +15,7 @@ struct PlotAxis {
 };
 
 /// Where a plot goes on its canvas, labels and title included.
-struct PlotFrame {
+struct PlotLayout {
   cv::Rect area;
   std::string title;
   PlotAxis x;
@@ -26,7 +26,7 @@ struct PlotFrame {
 class Plot {
  public:
   /// Keeps a reference to the canvas.
-  Plot(cv::Mat3b& canvas, const PlotFrame& frame);
+  Plot(cv::Mat3b& canvas, const PlotLayout& layout);
 
   void Points(std::span<const cv::Point2d> points, const cv::Scalar& color,
               const std::string& label = "");
@@ -42,7 +42,7 @@ class Plot {
   void AddToLegend(const cv::Scalar& color, const std::string& label);
 
   cv::Mat3b& canvas_;
-  PlotFrame frame_;
+  PlotLayout layout_;
   cv::Rect inner_;
   int legend_rows_ = 0;
 };

@@ -63,10 +63,10 @@ std::string LevelOf(const CellBounds& cell, const std::string& name) {
 
 CellBounds BoundsOfCell(const Study& study, const Cell& cell, int trials) {
   CellBounds result{.part = cell.part, .sensor = cell.sensor, .levels = cell.levels};
-  const CellBench bench(study, cell);
+  const CellRunner runner(study, cell);
   std::array<std::vector<std::optional<Eigen::Matrix3d>>, kAllKnown.size()> bounds;
   for (int trial = 0; trial < trials; ++trial) {
-    const SimulatedTrial simulated = bench.Simulate(trial);
+    const SimulatedTrial simulated = runner.Simulate(trial);
     if (!simulated.truth.in_view) continue;
     ++result.in_view;
     for (size_t i = 0; i < kAllKnown.size(); ++i) {

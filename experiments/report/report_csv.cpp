@@ -14,10 +14,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-void AppendNew(const std::string& name, Names& names) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
 // The columns that depend on the rows, in the order in which they first occur. A factor may be a
 // level in one part and drawn in another: it has one column all the same.
 struct RowColumns {

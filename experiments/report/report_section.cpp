@@ -17,10 +17,6 @@ ReportSection& SectionOf(const CellSummary& row, std::vector<ReportSection>& sec
   return sections.emplace_back(std::move(section));
 }
 
-void AppendNew(const std::string& name, std::vector<std::string>& names) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
 std::vector<std::string> VaryingLevels(const ReportSection& section) {
   std::vector<std::string> names;
   for (const CellSummary* row : section.rows) {
@@ -36,6 +32,10 @@ std::vector<std::string> VaryingLevels(const ReportSection& section) {
 }
 
 }  // namespace
+
+void AppendNew(const std::string& name, std::vector<std::string>& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
 
 std::vector<ReportSection> MakeSections(std::span<const CellSummary> summaries) {
   std::vector<ReportSection> sections;

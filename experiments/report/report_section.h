@@ -41,4 +41,7 @@ std::string Heading(const ReportSection& section);
 void AddKeyColumns(const ReportSection& section, TextTable& table);
 std::vector<std::string> KeyCells(const ReportSection& section, const CellSummary& row);
 
+/// Appends a name unless it is there.
+void AppendNew(const std::string& name, std::vector<std::string>& names);
+
 }  // namespace fenestra

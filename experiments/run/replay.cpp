@@ -85,7 +85,7 @@ std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, 
     }
     if (out.empty()) return;
     WritePictures(out / "pictures", finished);
-    WriteTrialFiles(out, finished.bench, finished.simulated);
+    WriteTrialFiles(out, finished.runner, finished.simulated);
   });
   for (ReplayedRow& row : rows) row.differences = Differences(row.recorded, row.repeated);
   return rows;

@@ -142,7 +142,7 @@ void WriteResultPictures(const ResultStore& store, const Study& study, std::span
                            .keep_artifacts = [](TrialKey) { return true; },
                            .detectors = std::move(detectors)};
   RunTrials(study, cells, first, options, [&](const FinishedTrial& trial) {
-    WritePictures(PictureFolder(folder, trial.bench.cell()), trial);
+    WritePictures(PictureFolder(folder, trial.runner.cell()), trial);
   });
 }
 

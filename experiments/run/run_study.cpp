@@ -104,10 +104,10 @@ void RunBatch(const StudyRun& run, std::span<const Cell> cells, std::span<const 
                            .keep_artifacts = pictured,
                            .stop = stop,
                            .detectors = run.detectors,
-                           .make_bench = run.make_bench};
+                           .make_runner = run.make_runner};
   RunTrials(run.study, cells, batch, options, [&](const FinishedTrial& trial) {
     // Before the rows: a trial that is stored is not run again.
-    if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.bench.cell()), trial);
+    if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.runner.cell()), trial);
     writer.Add(trial.Records());
   });
   writer.Finish();

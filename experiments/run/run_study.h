@@ -50,7 +50,7 @@ struct StudyRun {
   /// See RunOptions.
   std::function<bool()> stop = [] { return false; };
   std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
-  BenchMaker make_bench = {};  ///< See RunOptions.
+  RunnerMaker make_runner = {};  ///< See RunOptions.
 };
 
 struct StudyResult {

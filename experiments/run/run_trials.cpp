@@ -11,47 +11,47 @@
 namespace fenestra {
 namespace {
 
-BenchMaker MakerOf(const RunOptions& options) {
-  if (options.make_bench) return options.make_bench;
+RunnerMaker MakerOf(const RunOptions& options) {
+  if (options.make_runner) return options.make_runner;
   return [detectors = options.detectors](const Study& study, const Cell& cell) {
-    return std::make_shared<const CellBench>(study, cell, detectors);
+    return std::make_shared<const CellRunner>(study, cell, detectors);
   };
 }
 
-// Makes each cell's bench when its first trial starts and drops it after its last one.
-class Benches {
+// Makes each cell's runner when its first trial starts and drops it after its last one.
+class Runners {
  public:
-  Benches(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
-          BenchMaker make_bench)
-      : study_(study), cells_(cells), make_bench_(std::move(make_bench)), slots_(cells.size()) {
+  Runners(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
+          RunnerMaker make_runner)
+      : study_(study), cells_(cells), make_runner_(std::move(make_runner)), slots_(cells.size()) {
     for (const TrialKey& key : trials) ++slots_[static_cast<size_t>(key.cell)].remaining;
   }
 
-  std::shared_ptr<const TrialBench> Acquire(int cell) {
+  std::shared_ptr<const TrialRunner> Acquire(int cell) {
     Slot& slot = slots_[static_cast<size_t>(cell)];
     const std::lock_guard lock(slot.mutex);
-    if (!slot.bench) {
-      slot.bench = make_bench_(study_, cells_[static_cast<size_t>(cell)]);
+    if (!slot.runner) {
+      slot.runner = make_runner_(study_, cells_[static_cast<size_t>(cell)]);
     }
-    return slot.bench;
+    return slot.runner;
   }
 
   void Release(int cell) {
     Slot& slot = slots_[static_cast<size_t>(cell)];
     const std::lock_guard lock(slot.mutex);
-    if (--slot.remaining == 0) slot.bench.reset();
+    if (--slot.remaining == 0) slot.runner.reset();
   }
 
  private:
   struct Slot {
     std::mutex mutex;
-    std::shared_ptr<const TrialBench> bench;
+    std::shared_ptr<const TrialRunner> runner;
     int remaining = 0;
   };
 
   const Study& study_;
   std::span<const Cell> cells_;
-  BenchMaker make_bench_;
+  RunnerMaker make_runner_;
   std::vector<Slot> slots_;
 };
 
@@ -68,20 +68,20 @@ std::vector<TrialKey> AllTrials(std::span<const Cell> cells) {
 void RunTrials(const Study& study, std::span<const Cell> cells, std::span<const TrialKey> trials,
                const RunOptions& options, const std::function<void(const FinishedTrial&)>& finish) {
   FENESTRA_CHECK(options.jobs >= 1, "a run needs at least one job");
-  Benches benches(study, cells, trials, MakerOf(options));
+  Runners runners(study, cells, trials, MakerOf(options));
   std::atomic<size_t> next = 0;
   std::mutex error_mutex;
   std::exception_ptr first_error;
 
   const auto run_one = [&](TrialKey key) {
-    const auto bench = benches.Acquire(key.cell);
-    const SimulatedTrial simulated = bench->Simulate(key.trial);
+    const auto runner = runners.Acquire(key.cell);
+    const SimulatedTrial simulated = runner->Simulate(key.trial);
     std::vector<Attempt> attempts;
-    for (size_t i = 0; i < bench->detectors().size(); ++i) {
-      attempts.push_back(bench->Try(i, simulated, options.keep_artifacts(key)));
+    for (size_t i = 0; i < runner->detectors().size(); ++i) {
+      attempts.push_back(runner->Try(i, simulated, options.keep_artifacts(key)));
     }
-    finish({*bench, simulated, attempts});
-    benches.Release(key.cell);
+    finish({*runner, simulated, attempts});
+    runners.Release(key.cell);
   };
   const auto work = [&] {
     try {

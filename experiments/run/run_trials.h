@@ -13,8 +13,8 @@ namespace fenestra {
 /// All trials, cell by cell.
 std::vector<TrialKey> AllTrials(std::span<const Cell> cells);
 
-/// Makes the bench of a cell.
-using BenchMaker = std::function<std::shared_ptr<const TrialBench>(const Study&, const Cell&)>;
+/// Makes the runner of a cell.
+using RunnerMaker = std::function<std::shared_ptr<const TrialRunner>(const Study&, const Cell&)>;
 
 struct RunOptions {
   int jobs = 1;  ///< Trials that run at the same time, at least 1.
@@ -23,7 +23,7 @@ struct RunOptions {
   /// Asked before each trial; true ends the run when the trials that run have finished.
   std::function<bool()> stop = [] { return false; };
   std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
-  BenchMaker make_bench = {};  ///< Empty: CellBench, whose detectors `detectors` makes.
+  RunnerMaker make_runner = {};  ///< Empty: CellRunner, whose detectors `detectors` makes.
 };
 
 /// Runs the trials, in about the order given, each on one thread. `finish` is called once for each,

@@ -39,21 +39,21 @@ TrialCost MeasureCost(const Study& study, const Cell& cell, int trials,
   TrialCost cost;
   const Clock clock = SteadyClock();
   const double start_s = clock();
-  const CellBench bench(study, cell, detectors);
+  const CellRunner runner(study, cell, detectors);
   const double ready_s = clock();
   cost.cell_s = ready_s - start_s;
   for (int trial = 0; trial < trials; ++trial) {
-    const SimulatedTrial simulated = bench.Simulate(trial);
-    for (size_t i = 0; i < bench.detectors().size(); ++i) bench.Try(i, simulated, false);
+    const SimulatedTrial simulated = runner.Simulate(trial);
+    for (size_t i = 0; i < runner.detectors().size(); ++i) runner.Try(i, simulated, false);
   }
   cost.trial_s = (clock() - ready_s) / trials;
 
-  const SimulatedTrial simulated = bench.Simulate(0);
+  const SimulatedTrial simulated = runner.Simulate(0);
   std::vector<Attempt> attempts;
-  for (size_t i = 0; i < bench.detectors().size(); ++i) {
-    attempts.push_back(bench.Try(i, simulated, true));
+  for (size_t i = 0; i < runner.detectors().size(); ++i) {
+    attempts.push_back(runner.Try(i, simulated, true));
   }
-  const FinishedTrial finished{bench, simulated, attempts};
+  const FinishedTrial finished{runner, simulated, attempts};
   const PrivateFolder scratch;
   WritePictures(scratch.path() / "pictures", finished);
   cost.picture_bytes = static_cast<double>(FolderSize(scratch.path() / "pictures"));

@@ -52,9 +52,9 @@ int WriteSequence(const std::filesystem::path& folder, const Study& study, Senso
                     .text = ""};
   for (const Cell& cell : Cells(study)) {
     if (cell.sensor != sensor) continue;
-    const CellBench bench(study, cell);
+    const CellRunner runner(study, cell);
     for (int trial = 0; trial < cell.repetitions; ++trial) {
-      const SimulatedTrial simulated = bench.Simulate(trial);
+      const SimulatedTrial simulated = runner.Simulate(trial);
       const std::string place = fmt::format("{:05}", sequence.frames.size());
       WriteObservation(folder / place, simulated.observation, simulated.calibration);
       sequence.frames.push_back({.cell = cell.index,

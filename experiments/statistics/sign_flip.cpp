@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kMostEnumerated = 16;
 constexpr size_t kMostResampled = 2000;
-constexpr int kResamples = 19'999;
+constexpr int kSignFlips = 19'999;
 constexpr uint64_t kSeed = 1;
 
 // Sums that differ by rounding alone count as equal.
@@ -53,13 +53,13 @@ double SignFlipPValue(std::span<const double> differences) {
   const RandomStream stream(kSeed);
   uint64_t at_least = 1;  // The observed one.
   std::vector<float> uniforms(d.size());
-  for (int b = 0; b < kResamples; ++b) {
+  for (int b = 0; b < kSignFlips; ++b) {
     stream.Child("signs", static_cast<uint64_t>(b)).FillUniforms(uniforms);
     double flipped = 0.0;
     for (size_t i = 0; i < d.size(); ++i) flipped += uniforms[i] < 0.5f ? d[i] : -d[i];
     at_least += flipped >= observed ? 1 : 0;
   }
-  return static_cast<double>(at_least) / (kResamples + 1.0);
+  return static_cast<double>(at_least) / (kSignFlips + 1.0);
 }
 
 }  // namespace fenestra

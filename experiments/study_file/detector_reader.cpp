@@ -14,120 +14,77 @@ namespace {
 
 constexpr size_t kMostWords = 1000;
 
-bool ReadLimit(YamlReader& reader, const YAML::Node& node, const std::string& name,
-               double& limit_s) {
+// The limit [s] of that name, or the default where it is not given.
+double ReadLimit(YamlReader& reader, const YAML::Node& node, const std::string& name,
+                 double default_s) {
   const YAML::Node given = node[name];
-  if (!given.IsDefined()) return true;
-  const auto value = reader.Number(given, name);
-  if (!value) return false;
-  if (!(*value > 0.0 && *value <= kLongestLimit_s)) {
+  if (!given.IsDefined()) return default_s;
+  const double limit_s = reader.Number(given, name).value_or(default_s);
+  if (!(limit_s > 0.0 && limit_s <= kLongestLimit_s)) {
     reader.AddFault(given, fmt::format("{} must be above 0 and at most {}, not {}", name,
-                                       kLongestLimit_s, *value));
-    return false;
+                                       kLongestLimit_s, limit_s));
   }
-  limit_s = *value;
-  return true;
+  return limit_s;
 }
 
-bool ReadLimits(YamlReader& reader, const YAML::Node& node, DetectorProcess& process) {
-  const bool time = ReadLimit(reader, node, "time_limit_s", process.time_limit_s);
-  return ReadLimit(reader, node, "start_limit_s", process.start_limit_s) && time;
+DetectorProcess ReadLimits(YamlReader& reader, const YAML::Node& node) {
+  DetectorProcess process;
+  process.time_limit_s = ReadLimit(reader, node, "time_limit_s", process.time_limit_s);
+  process.start_limit_s = ReadLimit(reader, node, "start_limit_s", process.start_limit_s);
+  return process;
 }
 
-bool ReadFreeOptions(YamlReader& reader, const YAML::Node& node, OptionValues& options) {
+OptionValues ReadFreeOptions(YamlReader& reader, const YAML::Node& node) {
+  OptionValues options;
   if (!node.IsMap()) {
     reader.AddFault(node,
                     "options must be a mapping (name: value), not " + YamlReader::Describe(node));
-    return false;
+    return options;
   }
-  bool good = true;
   for (const auto& entry : node) {
     const auto name = ReadName(reader, entry.first, "an option's name");
     const auto value = name ? ReadFreeValue(reader, entry.second, *name) : std::nullopt;
-    good = good && value;
     if (value) options[*name] = *value;
   }
-  return good;
+  return options;
 }
 
-}  // namespace
-
-bool ReadCommand(YamlReader& reader, const YAML::Node& node, std::vector<std::string>& words) {
-  if (!node.IsSequence() || node.size() == 0 || node.size() > kMostWords) {
-    reader.AddFault(node, fmt::format("command must be a list of words such as [python3, mine.py], "
-                                      "not {}",
-                                      YamlReader::Describe(node)));
-    return false;
-  }
-  for (const YAML::Node& item : node) {
-    const auto word = reader.Text(item, "a word of command");
-    if (!word) return false;
-    words.push_back(*word);
-  }
-  if (words.front().empty()) reader.AddFault(node, "command must name a program first");
-  return !words.front().empty();
-}
-
-std::optional<ParameterValue> ReadFreeValue(YamlReader& reader, const YAML::Node& node,
-                                            const std::string& name) {
-  if (!node.IsScalar()) {
-    reader.AddFault(node, fmt::format("{} must be a switch, a number or a text, not {}", name,
-                                      YamlReader::Describe(node)));
-    return std::nullopt;
-  }
-  const std::string& text = node.Scalar();
-  if (node.Tag() == "!") return text;
-  if (text == "true" || text == "false") return text == "true";
-  double number = 0.0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error == std::errc() && rest == end && std::isfinite(number)) return number;
-  return text;
-}
-
+// A detector that is a program of the user's own, without its label.
 std::optional<DetectorChoice> ReadExternalDetector(YamlReader& reader, const YAML::Node& node) {
-  bool good = reader.CheckKeys(node, "a detector with a command", kProgramKeys);
-  DetectorChoice choice{.label = {},
-                        .name = {},
-                        .sensor = SensorKind::kStereo,
-                        .options = {},
-                        .process = DetectorProcess{}};
-  good = ReadCommand(reader, node["command"], choice.process->command) && good;
-  good = ReadLimits(reader, node, *choice.process) && good;
+  const size_t before = reader.fault_count();
+  reader.CheckKeys(node, "a detector with a command", kProgramKeys);
+  DetectorChoice choice{};
+  const std::vector<std::string> command = ReadCommand(reader, node["command"]);
+  choice.process = ReadLimits(reader, node);
+  choice.process->command = command;
   if (const YAML::Node options = node["options"]; options.IsDefined()) {
-    good = ReadFreeOptions(reader, options, choice.options) && good;
+    choice.options = ReadFreeOptions(reader, options);
   }
-  const auto name = ReadName(reader, node["name"], "a detector's name");
-  choice.name = name.value_or("");
+  choice.name = ReadName(reader, node["name"], "a detector's name").value_or("");
   if (!node["sensor"].IsDefined()) {
     reader.AddFault(node, "a detector with a command needs a sensor: stereo or rgbd");
     return std::nullopt;
   }
-  const auto sensor = ReadSensor(reader, node["sensor"]);
-  choice.sensor = sensor.value_or(SensorKind::kStereo);
-  return good && name && sensor ? std::optional(choice) : std::nullopt;
+  choice.sensor = ReadSensor(reader, node["sensor"]).value_or(SensorKind::kStereo);
+  return reader.IfSoundSince(before, choice);
 }
 
-GivenProcess ReadIsolation(YamlReader& reader, const YAML::Node& node, bool isolate_by_default) {
-  GivenProcess given;
+// The process of a detector that Fenestra knows by name: `isolate: true` or false, and then the two
+// limits. Without `isolate`, `isolate_by_default` decides.
+std::optional<DetectorProcess> ReadIsolation(YamlReader& reader, const YAML::Node& node,
+                                             bool isolate_by_default) {
   bool isolate = isolate_by_default;
   if (const YAML::Node word = node["isolate"]; word.IsDefined()) {
-    const auto value = reader.Boolean(word, "isolate");
-    given.good = value.has_value();
-    isolate = value.value_or(false);
+    isolate = reader.Boolean(word, "isolate").value_or(false);
   }
-  DetectorProcess process;
-  given.good = ReadLimits(reader, node, process) && given.good;
-  if (isolate) given.process = process;
+  const DetectorProcess process = ReadLimits(reader, node);
+  if (isolate) return process;
   for (const char* limit : {"time_limit_s", "start_limit_s"}) {
-    if (isolate || !node[limit].IsDefined()) continue;
+    if (!node[limit].IsDefined()) continue;
     reader.AddFault(node[limit], fmt::format("{} has no effect without isolate: true", limit));
-    given.good = false;
   }
-  return given;
+  return std::nullopt;
 }
-
-namespace {
 
 const DetectorInfo* Find(std::span<const DetectorInfo> known, const std::string& name) {
   const auto found = std::find_if(known.begin(), known.end(),
@@ -150,48 +107,44 @@ const DetectorInfo* ReadDetectorName(YamlReader& reader, const YAML::Node& node,
   return info;
 }
 
-std::optional<OptionValues> ReadOptions(YamlReader& reader, const YAML::Node& node,
-                                        const DetectorInfo& info) {
+OptionValues ReadOptions(YamlReader& reader, const YAML::Node& node, const DetectorInfo& info) {
   std::vector<std::string> names;
   for (const ParameterInfo& option : info.options) names.push_back(option.name);
-  bool good = reader.CheckKeys(node, "options of " + info.name, names);
-  if (!node.IsMap()) return std::nullopt;
+  reader.CheckKeys(node, "options of " + info.name, names);
   OptionValues values = DefaultChoice(info).options;
+  if (!node.IsMap()) return values;
   for (const ParameterInfo& option : info.options) {
     const YAML::Node given = node[option.name];
     if (!given.IsDefined()) continue;
-    const auto value = option.Read(reader, given);
-    if (value) values[option.name] = *value;
-    good = good && value.has_value();
+    if (const auto value = option.Read(reader, given)) values[option.name] = *value;
   }
-  return good ? std::optional(values) : std::nullopt;
+  return values;
 }
 
-bool ReadLabel(YamlReader& reader, const YAML::Node& node, DetectorChoice& choice) {
+// The label, which is the detector's name unless another one is given.
+std::string ReadLabel(YamlReader& reader, const YAML::Node& node, const std::string& name) {
   const YAML::Node label = node["label"];
-  if (!label.IsDefined()) return true;
-  const auto text = ReadName(reader, label, "a detector's label");
-  choice.label = text.value_or("");
-  return text.has_value();
+  if (!label.IsDefined()) return name;
+  return ReadName(reader, label, "a detector's label").value_or(name);
 }
 
 std::optional<GivenDetector> ReadProgram(YamlReader& reader, const YAML::Node& node,
                                          std::span<const DetectorInfo> known) {
+  const size_t before = reader.fault_count();
   if (!node["name"].IsDefined()) {
     reader.AddFault(node, "a detector needs a name");
     return std::nullopt;
   }
   auto choice = ReadExternalDetector(reader, node);
   if (!choice) return std::nullopt;
-  choice->label = choice->name;
   if (Find(known, choice->name) != nullptr) {
     reader.AddFault(node["name"], fmt::format("'{}' is a detector of this program: call the one "
                                               "with a command otherwise",
                                               choice->name));
     return std::nullopt;
   }
-  return ReadLabel(reader, node, *choice) ? std::optional(GivenDetector{*choice, node})
-                                          : std::nullopt;
+  choice->label = ReadLabel(reader, node, choice->name);
+  return reader.IfSoundSince(before, GivenDetector{*choice, node});
 }
 
 std::optional<GivenDetector> ReadDetector(YamlReader& reader, const YAML::Node& node,
@@ -201,7 +154,8 @@ std::optional<GivenDetector> ReadDetector(YamlReader& reader, const YAML::Node& 
     return info ? std::optional(GivenDetector{DefaultChoice(*info), node}) : std::nullopt;
   }
   if (node["command"].IsDefined()) return ReadProgram(reader, node, known);
-  bool good = reader.CheckKeys(node, "a detector", kDetectorKeys);
+  const size_t before = reader.fault_count();
+  reader.CheckKeys(node, "a detector", kDetectorKeys);
   if (!node["name"].IsDefined()) {
     reader.AddFault(node, "a detector needs a name");
     return std::nullopt;
@@ -209,16 +163,12 @@ std::optional<GivenDetector> ReadDetector(YamlReader& reader, const YAML::Node& 
   const DetectorInfo* info = ReadDetectorName(reader, node["name"], known);
   if (info == nullptr) return std::nullopt;
   GivenDetector given{DefaultChoice(*info), node};
-  good = ReadLabel(reader, node, given.choice) && good;
-  const GivenProcess isolation = ReadIsolation(reader, node, info->isolate);
-  good = isolation.good && good;
-  given.choice.process = isolation.process;
+  given.choice.label = ReadLabel(reader, node, info->name);
+  given.choice.process = ReadIsolation(reader, node, info->isolate);
   if (const YAML::Node options = node["options"]; options.IsDefined()) {
-    const auto values = ReadOptions(reader, options, *info);
-    good = good && values.has_value();
-    given.choice.options = values.value_or(OptionValues{});
+    given.choice.options = ReadOptions(reader, options, *info);
   }
-  return good ? std::optional(given) : std::nullopt;
+  return reader.IfSoundSince(before, given);
 }
 
 }  // namespace
@@ -230,11 +180,10 @@ std::optional<std::vector<GivenDetector>> ReadDetectors(YamlReader& reader, cons
                                       YamlReader::Describe(node)));
     return std::nullopt;
   }
+  const size_t before = reader.fault_count();
   std::vector<GivenDetector> detectors;
-  bool good = true;
   for (const YAML::Node& item : node) {
     const auto detector = ReadDetector(reader, item, known);
-    good = good && detector.has_value();
     if (!detector) continue;
     const std::string& label = detector->choice.label;
     if (std::any_of(detectors.begin(), detectors.end(),
@@ -242,11 +191,44 @@ std::optional<std::vector<GivenDetector>> ReadDetectors(YamlReader& reader, cons
       reader.AddFault(item, fmt::format("two detectors are called '{}': give this one a label of "
                                         "its own",
                                         label));
-      good = false;
     }
     detectors.push_back(*detector);
   }
-  return good ? std::optional(detectors) : std::nullopt;
+  return reader.IfSoundSince(before, detectors);
+}
+
+std::vector<std::string> ReadCommand(YamlReader& reader, const YAML::Node& node) {
+  std::vector<std::string> words;
+  if (!node.IsSequence() || node.size() == 0 || node.size() > kMostWords) {
+    reader.AddFault(node, fmt::format("command must be a list of words such as [python3, mine.py], "
+                                      "not {}",
+                                      YamlReader::Describe(node)));
+    return words;
+  }
+  for (const YAML::Node& item : node) {
+    const auto word = reader.Text(item, "a word of command");
+    if (!word) return {};
+    words.push_back(*word);
+  }
+  if (words.front().empty()) reader.AddFault(node, "command must name a program first");
+  return words;
+}
+
+std::optional<ParameterValue> ReadFreeValue(YamlReader& reader, const YAML::Node& node,
+                                            const std::string& name) {
+  if (!node.IsScalar()) {
+    reader.AddFault(node, fmt::format("{} must be a switch, a number or a text, not {}", name,
+                                      YamlReader::Describe(node)));
+    return std::nullopt;
+  }
+  const std::string& text = node.Scalar();
+  if (node.Tag() == "!") return text;
+  if (text == "true" || text == "false") return text == "true";
+  double number = 0.0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, number);
+  if (error == std::errc() && rest == end && std::isfinite(number)) return number;
+  return text;
 }
 
 }  // namespace fenestra

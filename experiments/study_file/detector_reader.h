@@ -21,19 +21,13 @@ struct GivenDetector {
 inline const std::vector<std::string> kDetectorKeys{"name",    "label",        "options",
                                                     "isolate", "time_limit_s", "start_limit_s"};
 
-/// Reads a list of detectors, each a name or {name: …, label: …, options: {…}, isolate: …}, or a
-/// program of the user's own (see ReadExternalDetector); options that are not given have their
-/// defaults, a missing label is the name. Faults are noted in the reader; the
-/// result is nullopt if there are any.
-std::optional<std::vector<GivenDetector>> ReadDetectors(YamlReader& reader, const YAML::Node& node,
-                                                        std::span<const DetectorInfo> known);
-
 inline const std::vector<std::string> kProgramKeys{
     "name", "label", "command", "sensor", "options", "time_limit_s", "start_limit_s"};
 /// No time limit may be longer.
 inline constexpr double kLongestLimit_s = 3600.0;
 
-/// Reads a detector that is a program of the user's own:
+/// Reads a list of detectors, each a name or {name: …, label: …, options: {…}, isolate: …}, or a
+/// program of the user's own:
 ///
 ///     name: mine                     # and its label, unless that is given, too
 ///     command: [python3, mine.py]    # found along PATH; relative to where fenestra is started
@@ -42,23 +36,17 @@ inline constexpr double kLongestLimit_s = 3600.0;
 ///     time_limit_s: 8                # optional: for an answer
 ///     start_limit_s: 20              # optional: for the first one
 ///
-/// Faults are noted in the reader; the result is nullopt if there are any.
-std::optional<DetectorChoice> ReadExternalDetector(YamlReader& reader, const YAML::Node& node);
+/// Options that are not given have their defaults, a missing label is the name. Faults are noted in
+/// the reader; the result is nullopt if there are any.
+std::optional<std::vector<GivenDetector>> ReadDetectors(YamlReader& reader, const YAML::Node& node,
+                                                        std::span<const DetectorInfo> known);
 
-/// Reads a program's command, a list of words; false where a fault was noted.
-bool ReadCommand(YamlReader& reader, const YAML::Node& node, std::vector<std::string>& words);
+/// Reads a program's command, a list of words; faults are noted in the reader.
+std::vector<std::string> ReadCommand(YamlReader& reader, const YAML::Node& node);
 
 /// Reads the value of a program's option: true and false are switches, numbers are numbers, and
 /// everything else, as well as everything in quotes, is text.
 std::optional<ParameterValue> ReadFreeValue(YamlReader& reader, const YAML::Node& node,
                                             const std::string& name);
-
-/// The process of a detector that Fenestra knows by name: `isolate: true` or false, and then the
-/// two limits. Without `isolate`, `isolate_by_default` decides.
-struct GivenProcess {
-  std::optional<DetectorProcess> process;
-  bool good = true;
-};
-GivenProcess ReadIsolation(YamlReader& reader, const YAML::Node& node, bool isolate_by_default);
 
 }  // namespace fenestra

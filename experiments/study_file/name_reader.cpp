@@ -2,20 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <vector>
-
 namespace fenestra {
 
 std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node) {
-  static const std::vector<std::string> names{ToString(SensorKind::kStereo),
-                                              ToString(SensorKind::kRgbd)};
   const auto name = reader.Text(node, "a sensor");
   if (!name) return std::nullopt;
-  if (*name == names[0]) return SensorKind::kStereo;
-  if (*name == names[1]) return SensorKind::kRgbd;
-  reader.AddFault(node,
-                  fmt::format("unknown sensor '{}'. Known: {}.", *name, fmt::join(names, ", ")));
-  return std::nullopt;
+  const auto sensor = ParseSensorKind(*name);
+  if (!sensor) {
+    reader.AddFault(node, fmt::format("unknown sensor '{}'. Known: {}, {}.", *name,
+                                      ToString(SensorKind::kStereo), ToString(SensorKind::kRgbd)));
+  }
+  return sensor;
 }
 
 std::optional<std::string> ReadName(YamlReader& reader, const YAML::Node& node,

@@ -29,63 +29,52 @@ std::optional<double> ReadWithin(YamlReader& reader, const YAML::Node& node, con
 std::optional<Requirement> ReadRequirement(YamlReader& reader, const YAML::Node& node) {
   constexpr double kMostMm = 1e6;
   if (!reader.CheckKeys(node, "require", kRequirementKeys)) return std::nullopt;
+  const size_t before = reader.fault_count();
   Requirement requirement;
-  bool good = true;
   if (const YAML::Node rate = node["hit_rate"]; rate.IsDefined()) {
-    const auto number =
-        ReadWithin(reader, rate, "hit_rate", {0.0, 1.0}, "a share greater than 0 and less than 1");
-    good = number.has_value();
-    requirement.hit_rate = number.value_or(0.0);
+    requirement.hit_rate =
+        ReadWithin(reader, rate, "hit_rate", {0.0, 1.0}, "a share greater than 0 and less than 1")
+            .value_or(0.0);
   }
   const auto read_error = [&](const char* key) -> std::optional<double> {
     if (!node[key].IsDefined()) return std::nullopt;
-    const auto number =
-        ReadWithin(reader, node[key], key, {0.0, kMostMm}, "a length in mm greater than 0");
-    good = good && number.has_value();
-    return number;
+    return ReadWithin(reader, node[key], key, {0.0, kMostMm}, "a length in mm greater than 0");
   };
   requirement.p50_error_mm = read_error("p50_error_mm");
   requirement.p95_error_mm = read_error("p95_error_mm");
-  if (good && requirement == Requirement{}) {
+  if (reader.fault_count() == before && requirement == Requirement{}) {
     reader.AddFault(
         node, fmt::format("require needs at least one of {}", fmt::join(kRequirementKeys, ", ")));
-    good = false;
   }
-  return good ? std::optional(requirement) : std::nullopt;
+  return reader.IfSoundSince(before, requirement);
 }
 
 }  // namespace
 
 std::optional<StoppingRule> ReadStoppingRule(YamlReader& reader, const YAML::Node& node) {
   if (!reader.CheckKeys(node, "until", StoppingKeys())) return std::nullopt;
+  const size_t before = reader.fault_count();
   StoppingRule rule;
-  bool good = true;
   if (const YAML::Node first = node[kFirstLook]; first.IsDefined()) {
-    const auto look = reader.Integer(first, kFirstLook, 1, kMostFirstLook);
-    good = look.has_value();
-    rule.first_look = static_cast<int>(look.value_or(1));
+    rule.first_look =
+        static_cast<int>(reader.Integer(first, kFirstLook, 1, kMostFirstLook).value_or(1));
   }
   for (const StoppingFigure figure : kAllStoppingFigures) {
     const YAML::Node given = node[ToString(figure)];
     if (!given.IsDefined()) continue;
     const auto width = reader.Number(given, ToString(figure));
-    if (width && *width > 0.0) {
-      rule.targets.push_back({figure, *width});
-      continue;
-    }
-    if (width) {
-      reader.AddFault(given, fmt::format("{} must be the width of an interval, greater than 0",
-                                         ToString(figure)));
-    }
-    good = false;
+    if (!width) continue;
+    rule.targets.push_back({figure, *width});
+    if (*width > 0.0) continue;
+    reader.AddFault(given, fmt::format("{} must be the width of an interval, greater than 0",
+                                       ToString(figure)));
   }
-  if (good && rule.targets.empty()) {
+  if (reader.fault_count() == before && rule.targets.empty()) {
     reader.AddFault(node,
                     fmt::format("until needs the width of at least one of {}",
                                 fmt::join(StoppingKeys().begin(), StoppingKeys().end() - 1, ", ")));
-    good = false;
   }
-  return good ? std::optional(rule) : std::nullopt;
+  return reader.IfSoundSince(before, rule);
 }
 
 const std::vector<std::string>& StoppingKeys() {

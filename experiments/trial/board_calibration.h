@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "experiments/study/calibration_choice.h"
 #include "sim/stereo/board_session.h"
 #include "vision/calibration/stereo_calibration.h"
 
@@ -14,9 +15,10 @@ StereoCalibrationResult CalibrateWithBoards(const StereoRig& rig,
                                             const BoardSessionOptions& session,
                                             const RandomStream& stream);
 
-/// All that the result of CalibrateWithBoards depends on, as text: equal texts, equal results, with
-/// the same program.
-std::string ContentOf(const StereoRig& rig, const BoardSessionOptions& session,
+/// All that a calibration with the choice's boards depends on, as text: equal texts, equal results,
+/// with the same program. It names every factor of the stereo rig and its calibration, so that a
+/// new one is not forgotten.
+std::string ContentOf(const StereoRig& rig, const CalibrationChoice& choice,
                       const RandomStream& stream);
 
 }  // namespace fenestra

@@ -25,35 +25,35 @@ StatedCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
     const StereoCalibrationResult result = CalibrateWithBoards(noisy, session, stream);
     return StatedCalibration{result.calibration, result.covariance};
   };
-  return cache.Get(ContentOf(noisy, session, stream), calibrate);
+  return cache.Get(ContentOf(noisy, choice, stream), calibrate);
 }
 
 }  // namespace
 
 CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
                          const RandomStream& calibration, const CalibrationCache& cache) {
-  const auto with_law = [&choice](const StereoRig& flown, const StereoCalibration& told,
-                                  const std::optional<PairMatrix>& boards = {}) {
-    return CalibratedRig{flown, told, CalibrationLaw(flown, choice, boards)};
+  const auto with_covariance = [&choice](const StereoRig& flown, const StereoCalibration& nominal,
+                                         const std::optional<PairMatrix>& boards = {}) {
+    return CalibratedRig{flown, nominal, CalibrationCovariance(flown, choice, boards)};
   };
   const auto with_boards = [&](const StereoRig& flown) {
-    const StatedCalibration stated = WithBoards(rig, choice, calibration.Child("boards"), cache);
-    return with_law(flown, stated.calibration, stated.covariance);
+    const StatedCalibration measured = WithBoards(rig, choice, calibration.Child("boards"), cache);
+    return with_covariance(flown, measured.calibration, measured.covariance);
   };
   switch (choice.source) {
     case CalibrationSource::kExact:
-      return with_law(rig, rig.cameras());
+      return with_covariance(rig, rig.cameras());
     case CalibrationSource::kPerturbed:
-      return with_law(rig, Perturbed(rig.cameras(), choice, calibration));
+      return with_covariance(rig, Perturbed(rig.cameras(), choice, calibration));
     case CalibrationSource::kBoards:
       return with_boards(rig);
     case CalibrationSource::kStale:
       return with_boards(rig.Displaced(RandomPose(
           calibration.Child("shake"), choice.shake_rotation_rad, choice.shake_translation_m)));
     case CalibrationSource::kDesign:
-      return with_law(rig, DesignOf(rig.options()));
+      return with_covariance(rig, DesignOf(rig.options()));
   }
-  return with_law(rig, rig.cameras());
+  return with_covariance(rig, rig.cameras());
 }
 
 }  // namespace fenestra

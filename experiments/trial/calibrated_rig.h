@@ -10,12 +10,12 @@
 
 namespace fenestra {
 
-/// A rig as it flies, and what detectors are told of it.
+/// A rig as it flies, and its nominal calibration, which detectors are given.
 struct CalibratedRig {
   StereoRig rig;
-  StereoCalibration told;
-  /// How far `told` may be from the truth: see CalibrationLaw. nullopt: it is the truth.
-  std::optional<PairMatrix> law;
+  StereoCalibration nominal;
+  /// Of the nominal calibration's error: see CalibrationCovariance. nullopt: there is no error.
+  std::optional<PairMatrix> covariance;
 };
 
 /// Calibrates a rig that was just built. A pure function of all but the cache, which only saves

@@ -1,7 +1,9 @@
 #include "experiments/trial/calibration_cache.h"
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -9,29 +11,25 @@
 #include "core/geometry/calibration_io.h"
 #include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/system/check.h"
 #include "core/system/program.h"
 
 namespace fenestra {
 namespace {
 
-// FNV-1a, 64 bit.
-uint64_t HashOf(const std::string& text) {
-  uint64_t hash = 14695981039346656037u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
+std::string Sha256(const std::string& text) {
+  std::array<unsigned char, 32> digest{};
+  FENESTRA_CHECK(
+      EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) == 1,
+      "libcrypto has no SHA-256");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
-// The text as YAML comments, after the calibration that it belongs to.
-std::string AsComments(const std::string& text) {
-  std::istringstream lines(text);
-  std::string comments;
-  for (std::string line; std::getline(lines, line);) comments += "# " + line + "\n";
-  return comments;
-}
+constexpr char kSum[] = "# sha256 ";
 
 // What a file holds of a calibration: its sum shows damage.
-std::string Sealed(const std::string& content, const std::string& comments) {
-  return content + fmt::format("# sum {:016x}\n", HashOf(content)) + comments;
+std::string Sealed(const std::string& content) {
+  return content + kSum + Sha256(content) + "\n";
 }
 
 constexpr char kCovariance[] = "# covariance ";
@@ -53,17 +51,14 @@ PairMatrix CovarianceIn(const std::string& text) {
   return covariance;
 }
 
-std::optional<StatedCalibration> Read(const std::filesystem::path& file,
-                                      const std::string& comments) {
+std::optional<StatedCalibration> Read(const std::filesystem::path& file) {
   // A folder can be opened as a file; reading it is what fails.
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const size_t end = text.find("# sum ");
-  if (end == std::string::npos || text != Sealed(text.substr(0, end), comments)) {
-    return std::nullopt;
-  }
+  const size_t end = text.find(kSum);
+  if (end == std::string::npos || text != Sealed(text.substr(0, end))) return std::nullopt;
   try {
     return StatedCalibration{ReadStereoCalibration(file), CovarianceIn(text)};
   } catch (const InputError&) {
@@ -88,13 +83,12 @@ CalibrationCache CalibrationCache::OfUser() {
 StatedCalibration CalibrationCache::Get(const std::string& content,
                                         const std::function<StatedCalibration()>& compute) const {
   if (!folder_) return compute();
-  const std::string comments = AsComments("build " + BuildId() + "\n" + content);
-  const std::filesystem::path file =
-      *folder_ / fmt::format("calibration-{:016x}.yaml", HashOf(comments));
-  if (const auto known = Read(file, comments)) return *known;
+  const std::string key = Sha256("build " + BuildId() + "\n" + content);
+  const std::filesystem::path file = *folder_ / ("calibration-" + key + ".yaml");
+  if (const auto known = Read(file)) return *known;
   const StatedCalibration computed = compute();
   try {
-    WriteFileAtomically(file, Sealed(ToText(computed), comments));
+    WriteFileAtomically(file, Sealed(ToText(computed)));
   } catch (const InputError&) {
     // Computed again next time.
   }

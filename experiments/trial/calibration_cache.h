@@ -20,9 +20,9 @@ struct StatedCalibration {
 
 /// Calibrations that were computed before, kept in files: the cells of a study share their rigs,
 /// and a study that is resumed, or run again with another detector, meets the same ones. The name
-/// of a file is a hash of all that its calibration depends on, the program's own build among it;
-/// the file repeats that text, so that a collision is noticed. Files appear by rename; a damaged
-/// one is computed anew. Thread-safe, and safe between processes.
+/// of a file is the SHA-256 of all that its calibration depends on, the program's own build among
+/// it; its last line is that of its content, so that damage is noticed and the calibration computed
+/// anew. Files appear by rename. Thread-safe, and safe between processes.
 class CalibrationCache {
  public:
   /// No cache: everything is computed.

@@ -16,10 +16,11 @@ TargetOptions TargetOf(const TrialSettings& settings) {
 
 }  // namespace
 
-CellBench::World::World(const TrialSettings& settings)
+CellRunner::World::World(const TrialSettings& settings)
     : scene(MakeScene(settings)), caster(scene) {}
 
-CellBench::CellBench(const Study& study, const Cell& cell, std::shared_ptr<DetectorMaker> detectors)
+CellRunner::CellRunner(const Study& study, const Cell& cell,
+                       std::shared_ptr<DetectorMaker> detectors)
     : cell_(cell),
       sampler_(study, cell),
       detector_choices_(DetectorsOf(study, cell)),
@@ -42,36 +43,36 @@ CellBench::CellBench(const Study& study, const Cell& cell, std::shared_ptr<Detec
   }
 }
 
-CellBench::Instrument CellBench::MakeInstrument(const TrialSettings& settings,
-                                                const TrialStreams& streams) const {
+CellRunner::Instrument CellRunner::MakeInstrument(const TrialSettings& settings,
+                                                  const TrialStreams& streams) const {
   if (cell_.sensor == SensorKind::kRgbd) {
     StructuredLightSensor sensor(settings.rgbd);
     const RgbdCalibration calibration = sensor.nominal();
     const DepthTheory theory(sensor);
     return {.sensor = std::move(sensor),
             .calibration = calibration,
-            .calibration_law = {},
+            .calibration_covariance = {},
             .depth_theory = theory};
   }
   const StereoRig built(settings.stereo, streams.rig);
   CalibratedRig calibrated =
       Calibrated(built, settings.stereo_calibration, streams.calibration, cache_);
   return {.sensor = std::move(calibrated.rig),
-          .calibration = calibrated.told,
-          .calibration_law = calibrated.law,
+          .calibration = calibrated.nominal,
+          .calibration_covariance = calibrated.covariance,
           .depth_theory = {}};
 }
 
-std::shared_ptr<const CellBench::World> CellBench::WorldOf(const TrialSettings& settings) const {
+std::shared_ptr<const CellRunner::World> CellRunner::WorldOf(const TrialSettings& settings) const {
   return shared_world_ ? shared_world_ : std::make_shared<const World>(settings);
 }
 
-std::shared_ptr<const CellBench::Instrument> CellBench::InstrumentOf(const Trial& trial) const {
+std::shared_ptr<const CellRunner::Instrument> CellRunner::InstrumentOf(const Trial& trial) const {
   if (shared_instrument_) return shared_instrument_;
   return std::make_shared<const Instrument>(MakeInstrument(trial.settings, trial.streams));
 }
 
-SimulatedTrial CellBench::Simulate(int trial_index) const {
+SimulatedTrial CellRunner::Simulate(int trial_index) const {
   Trial trial = sampler_.Sample(trial_index);
   const TrialSettings& settings = trial.settings;
   const auto world = WorldOf(settings);
@@ -88,7 +89,7 @@ SimulatedTrial CellBench::Simulate(int trial_index) const {
     simulated.observation = seen.observation;
     simulated.truth = rig->Truth(world->scene, X_WB);
     simulated.information = InformationOf(*rig, seen, simulated.truth, TargetOf(settings).border_m,
-                                          instrument->calibration_law);
+                                          instrument->calibration_covariance);
     return simulated;
   }
   const auto& sensor = std::get<StructuredLightSensor>(instrument->sensor);
@@ -100,8 +101,8 @@ SimulatedTrial CellBench::Simulate(int trial_index) const {
   return simulated;
 }
 
-Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
-                       bool keep_artifacts) const {
+Attempt CellRunner::Try(size_t detector, const SimulatedTrial& simulated,
+                        bool keep_artifacts) const {
   const DetectorChoice& choice = detector_choices_[detector];
   StageLog log(SteadyClock(), keep_artifacts);
   const auto detect = [&] {
@@ -128,7 +129,7 @@ Attempt CellBench::Try(size_t detector, const SimulatedTrial& simulated,
   return {std::move(record), std::move(log)};
 }
 
-std::optional<DepthFrame> CellBench::DepthOf(const SimulatedTrial& simulated) const {
+std::optional<DepthFrame> CellRunner::DepthOf(const SimulatedTrial& simulated) const {
   const auto instrument = InstrumentOf(simulated.trial);
   const auto* sensor = std::get_if<StructuredLightSensor>(&instrument->sensor);
   if (sensor == nullptr) return std::nullopt;
@@ -138,7 +139,7 @@ std::optional<DepthFrame> CellBench::DepthOf(const SimulatedTrial& simulated) co
                               simulated.trial.streams.shot);
 }
 
-TrueSensor CellBench::SensorOf(const SimulatedTrial& simulated) const {
+TrueSensor CellRunner::SensorOf(const SimulatedTrial& simulated) const {
   const auto instrument = InstrumentOf(simulated.trial);
   const auto sensor = [&](const SensorCalibration& cameras, const Pose& X_BC,
                           const RigMotion& motion) -> TrueSensor {
@@ -153,7 +154,7 @@ TrueSensor CellBench::SensorOf(const SimulatedTrial& simulated) const {
   return sensor(rgbd.nominal(), rgbd.X_WD(Pose()), rgbd.options().motion);
 }
 
-TruthImages CellBench::TruthOf(const SimulatedTrial& simulated) const {
+TruthImages CellRunner::TruthOf(const SimulatedTrial& simulated) const {
   const TrialSettings& settings = simulated.trial.settings;
   const auto world = WorldOf(settings);
   const auto instrument = InstrumentOf(simulated.trial);

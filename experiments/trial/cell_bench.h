@@ -18,11 +18,11 @@ namespace fenestra {
 
 /// Everything that the trials of one cell share, made once: the scene with its ray tracing
 /// structures, the sensor, the detectors. What a study draws in every trial is made in every trial.
-class CellBench final : public TrialBench {
+class CellRunner final : public TrialRunner {
  public:
-  /// Keeps no references. Benches that share `detectors` share running programs, too.
-  CellBench(const Study& study, const Cell& cell,
-            std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>());
+  /// Keeps no references. Runners that share `detectors` share running programs, too.
+  CellRunner(const Study& study, const Cell& cell,
+             std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>());
 
   const Cell& cell() const override { return cell_; }
   const std::vector<DetectorChoice>& detectors() const override { return detector_choices_; }
@@ -43,8 +43,8 @@ class CellBench final : public TrialBench {
   struct Instrument {
     std::variant<StereoRig, StructuredLightSensor> sensor;
     SensorCalibration calibration;
-    std::optional<PairMatrix> calibration_law;  ///< For a stereo rig; see CalibratedRig.
-    std::optional<DepthTheory> depth_theory;    ///< For a structured-light sensor.
+    std::optional<PairMatrix> calibration_covariance;  ///< For a stereo rig; see CalibratedRig.
+    std::optional<DepthTheory> depth_theory;           ///< For a structured-light sensor.
   };
 
   Instrument MakeInstrument(const TrialSettings& settings, const TrialStreams& streams) const;

@@ -36,12 +36,13 @@ struct Attempt {
   StageLog log;
 };
 
-/// Where the trials of one cell are made. Const calls are thread-safe and single-threaded inside; a
-/// trial's result depends on the study, the cell and the trial's index alone. CellBench is the real
-/// one; tests and measurements of the harness put quick ones in its place.
-class TrialBench {
+/// Simulates the trials of one cell and tries detectors on them. Const calls are thread-safe and
+/// single-threaded inside; a trial's result depends on the study, the cell and the trial's index
+/// alone. CellRunner is the real one; tests and measurements of the harness put quick ones in its
+/// place.
+class TrialRunner {
  public:
-  virtual ~TrialBench() = default;
+  virtual ~TrialRunner() = default;
 
   virtual const Cell& cell() const = 0;
   virtual const std::vector<DetectorChoice>& detectors() const = 0;
@@ -65,11 +66,11 @@ class TrialBench {
 
 /// A trial that every detector of its cell has tried.
 struct FinishedTrial {
-  const TrialBench& bench;
+  const TrialRunner& runner;
   const SimulatedTrial& simulated;
   const std::vector<Attempt>& attempts;
 
-  TrialKey key() const { return {bench.cell().index, simulated.trial.index}; }
+  TrialKey key() const { return {runner.cell().index, simulated.trial.index}; }
   std::vector<TrialRecord> Records() const {
     std::vector<TrialRecord> records;
     for (const Attempt& attempt : attempts) records.push_back(attempt.record);

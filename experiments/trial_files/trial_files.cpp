@@ -104,12 +104,12 @@ void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedT
   }
 }
 
-void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& bench,
+void WriteTruthFiles(const std::filesystem::path& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated) {
-  const TruthImages images = bench.TruthOf(simulated);
-  const SensorCalibration sensor = bench.SensorOf(simulated).cameras;
+  const TruthImages images = runner.TruthOf(simulated);
+  const SensorCalibration sensor = runner.SensorOf(simulated).cameras;
   const bool stereo = std::holds_alternative<StereoCalibration>(sensor);
-  if (const std::optional<DepthFrame> depth = bench.DepthOf(simulated)) {
+  if (const std::optional<DepthFrame> depth = runner.DepthOf(simulated)) {
     WritePng(folder / "no_return.png", DrawNoReturn(depth->no_return));
     // Ten bits at the upper end of sixteen, so that a viewer shows them.
     constexpr double kToSixteenBits = 64.0;
@@ -131,10 +131,10 @@ void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& benc
   WriteFileAtomically(folder / "trial.yaml", FactorYaml(simulated.trial.settings));
 }
 
-void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
+void WriteTrialFiles(const std::filesystem::path& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated) {
   WriteObservationFiles(folder, simulated);
-  WriteTruthFiles(folder / "truth", bench, simulated);
+  WriteTruthFiles(folder / "truth", runner, simulated);
 }
 
 }  // namespace fenestra

@@ -35,12 +35,12 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 ///     no_return.png     why depth pixels have no return (RGB-D)
 ///     infrared.png      what the infra-red camera sees (RGB-D by matching)
 ///     trial.yaml        every factor's value in this trial
-void WriteTrialFiles(const std::filesystem::path& folder, const TrialBench& bench,
+void WriteTrialFiles(const std::filesystem::path& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated);
 
 /// Write the first and the second half of these files, each into a folder of its own.
 void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedTrial& simulated);
-void WriteTruthFiles(const std::filesystem::path& folder, const TrialBench& bench,
+void WriteTruthFiles(const std::filesystem::path& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated);
 
 }  // namespace fenestra

@@ -10,7 +10,7 @@
 #include "experiments/study_file/study_reader.h"
 #include "experiments/trial/cell_bench.h"
 #include "vision/detector_registry.h"
-#include "vision/rgbd/paper/cloud_shape.h"
+#include "vision/rgbd/paper/dominant_plane.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 #include "vision/rgbd/paper/paper_rgbd.h"
 #include "vision/stereo/paper/paper_stereo.h"
@@ -26,7 +26,7 @@ SimulatedTrial PaperTrial(const std::string& part, double distance_m) {
     if (cell.part != part) continue;
     for (const auto& [name, value] : cell.levels) {
       if (name == "distance_m" && value == ParameterValue(distance_m)) {
-        return CellBench(study, cell).Simulate(0);
+        return CellRunner(study, cell).Simulate(0);
       }
     }
   }

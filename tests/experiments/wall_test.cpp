@@ -56,13 +56,13 @@ Detection Detect(const DetectorChoice& choice, const SensorCalibration& calibrat
 TEST(WallTest, EstimatesFromFilesAreThoseInProcess) {
   const Study study = SmallStudy();
   for (const Cell& cell : Cells(study)) {
-    const CellBench bench(study, cell);
-    const SimulatedTrial simulated = bench.Simulate(0);
+    const CellRunner runner(study, cell);
+    const SimulatedTrial simulated = runner.Simulate(0);
     const TemporaryFolder folder;
     WriteObservation(folder.path(), simulated.observation, simulated.calibration);
     const RecordedObservation files =
         ReadObservation(ObservationFiles::In(folder.path(), cell.sensor));
-    for (const DetectorChoice& choice : bench.detectors()) {
+    for (const DetectorChoice& choice : runner.detectors()) {
       const Detection in_process = Detect(choice, simulated.calibration, simulated.observation);
       EXPECT_TRUE(std::holds_alternative<WindowEstimate>(in_process)) << choice.name;
       ExpectSameDetection(in_process, Detect(choice, files.calibration, files.observation));
@@ -73,16 +73,16 @@ TEST(WallTest, EstimatesFromFilesAreThoseInProcess) {
 TEST(WallTest, SamePixelsGiveTheSameEstimateWhateverTheTruth) {
   const Study study = SmallStudy();
   for (const Cell& cell : Cells(study)) {
-    const CellBench bench(study, cell);
-    const SimulatedTrial simulated = bench.Simulate(0);
+    const CellRunner runner(study, cell);
+    const SimulatedTrial simulated = runner.Simulate(0);
     SimulatedTrial lying = simulated;
     lying.truth.X_WC = Pose(RotationFromVector({0.3, 0.2, 0.1}), {7.0, 8.0, 9.0});
     lying.truth.target->p_CO += Eigen::Vector3d(1.0, -2.0, 3.0);
     lying.truth.target->width_m *= 3.0;
     lying.trial.settings.viewpoint.distance_m = 77.0;
-    for (size_t i = 0; i < bench.detectors().size(); ++i) {
-      const Attempt honest = bench.Try(i, simulated, false);
-      const Attempt blind = bench.Try(i, lying, false);
+    for (size_t i = 0; i < runner.detectors().size(); ++i) {
+      const Attempt honest = runner.Try(i, simulated, false);
+      const Attempt blind = runner.Try(i, lying, false);
       ASSERT_TRUE(honest.record.score.estimate);
       ASSERT_TRUE(blind.record.score.estimate);
       ExpectSameDetection(*honest.record.score.estimate, *blind.record.score.estimate);
@@ -95,10 +95,10 @@ TEST(WallTest, WhyPixelsHaveNoReturnStandsInTheTruthAlone) {
   const Study study = SmallStudy();
   bool any = false;
   for (const Cell& cell : Cells(study)) {
-    const CellBench bench(study, cell);
-    const SimulatedTrial simulated = bench.Simulate(0);
+    const CellRunner runner(study, cell);
+    const SimulatedTrial simulated = runner.Simulate(0);
     const auto* seen = std::get_if<RgbdObservation>(&simulated.observation);
-    const std::optional<DepthFrame> depth = bench.DepthOf(simulated);
+    const std::optional<DepthFrame> depth = runner.DepthOf(simulated);
     ASSERT_EQ(seen != nullptr, depth.has_value());
     if (seen == nullptr) continue;
     any = true;
@@ -106,7 +106,7 @@ TEST(WallTest, WhyPixelsHaveNoReturnStandsInTheTruthAlone) {
     EXPECT_EQ(cv::countNonZero(depth->depth.raw != seen->depth.raw), 0);
     EXPECT_EQ(cv::countNonZero((depth->no_return == 0) != (seen->depth.raw != 0)), 0);
     const TemporaryFolder folder;
-    WriteTrialFiles(folder.path(), bench, simulated);
+    WriteTrialFiles(folder.path(), runner, simulated);
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "truth" / "no_return.png"));
   }
   EXPECT_TRUE(any);
@@ -117,9 +117,9 @@ TEST(WallTest, WhatADetectorCanReadNamesNoTruth) {
   const std::set<std::string> allowed = {"left.png",  "right.png", "color.png",
                                          "depth.png", "cloud.pcd", "calibration.yaml"};
   for (const Cell& cell : Cells(study)) {
-    const CellBench bench(study, cell);
+    const CellRunner runner(study, cell);
     const TemporaryFolder folder;
-    WriteTrialFiles(folder.path(), bench, bench.Simulate(0));
+    WriteTrialFiles(folder.path(), runner, runner.Simulate(0));
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
       const std::string name = entry.path().filename();
       if (name == "truth") continue;

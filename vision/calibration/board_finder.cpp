@@ -17,12 +17,12 @@ namespace {
 
 using Points = std::vector<cv::Point2f>;
 
-// A corner before it is refined.
+// A corner before refinement.
 using Corners = std::map<int, cv::Point2f>;
 
 constexpr int kFewestCorners = 6;
 
-// Mean grey of the middle of the square whose corners are given.
+// Mean grey value of the middle of the square with the given corners.
 double Brightness(const cv::Mat1b& image, const std::array<cv::Point2f, 4>& square) {
   const cv::Point2f centre = 0.25f * (square[0] + square[1] + square[2] + square[3]);
   const double side = cv::norm(square[1] - square[0]);
@@ -34,9 +34,9 @@ double Brightness(const cv::Mat1b& image, const std::array<cv::Point2f, 4>& squa
   return window.empty() ? 0.0 : cv::mean(image(window))[0];
 }
 
-// The square whose top left corner is the first one is white: the board's first square, which
-// touches it diagonally, and this square are of one colour; so are all whose row and column numbers
-// add up evenly. Black is expected; upside down it is white.
+// Tells whether the square whose top left corner is the first corner is white. It has the colour of
+// the board's first square, which touches it diagonally, since their row and column numbers have an
+// even sum. It is black unless the board is upside down.
 bool IsUpsideDown(const cv::Mat1b& image, const Points& corners, const CalibrationBoard& board) {
   const auto columns = static_cast<size_t>(board.corner_columns());
   const auto rows = static_cast<size_t>(board.corner_rows());
@@ -98,7 +98,7 @@ std::variant<Corners, BoardNotFound> FindCharuco(const cv::Mat1b& image,
   return corners;
 }
 
-// How the board's plane is seen, but for the lens' distortion: from metres on it to pixels.
+// Homography from metres on the board's plane to pixels, ignoring the lens distortion.
 cv::Matx33d BoardToImage(const Corners& corners, const CalibrationBoard& board) {
   Points on_board;
   Points in_image;
@@ -123,10 +123,10 @@ CornerGuess GuessOf(const cv::Matx33d& H, const CalibrationBoard& board, int id,
       Map(H, p_GQ.x() + half_m, p_GQ.y()) - Map(H, p_GQ.x() - half_m, p_GQ.y());
   const Eigen::Vector2d along_column =
       Map(H, p_GQ.x(), p_GQ.y() + half_m) - Map(H, p_GQ.x(), p_GQ.y() - half_m);
-  // Distance from one side of the square to the opposite one.
+  // Distance between opposite sides of the square.
   const double area = std::abs(along_row.x() * along_column.y() - along_row.y() * along_column.x());
   const double width_px = area / std::max(along_row.norm(), along_column.norm());
-  // Clear of the neighbours, or of the markers.
+  // The radius stays clear of neighbouring corners or of the markers.
   double share = 0.4;
   if (board.kind == BoardKind::kCharuco) {
     share = std::min(share, 0.5 * (board.square_m - board.marker_m) / board.square_m);

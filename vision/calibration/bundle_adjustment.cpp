@@ -59,7 +59,7 @@ struct NormalEquations {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Adds the corners that one camera saw in one view. False if a corner has no projection.
+// Adds the corners that one camera saw in one view. Returns false if a corner has no projection.
 bool AddCorners(const PairState& state, size_t view, bool is_right, const BoardView& seen_in,
                 const CalibrationBoard& board, NormalEquations& equations) {
   const std::vector<BoardCorner>& corners = is_right ? seen_in.right : seen_in.left;
@@ -107,7 +107,7 @@ NormalEquations Linearise(const PairState& state, const std::vector<BoardView>& 
   return equations;
 }
 
-// Parameters that are not adjusted are taken out by a unit row and column.
+// Parameters that are not adjusted are eliminated by a unit row and column.
 void Fix(int parameter, PairMatrix& matrix, PairVector& vector) {
   matrix.row(parameter).setZero();
   matrix.col(parameter).setZero();
@@ -120,7 +120,7 @@ struct Reduced {
   PairVector vector;
 };
 
-// The Schur complement of the board poses; `damping` multiplies the diagonal.
+// Schur complement of the board poses; `damping` multiplies the diagonal.
 Reduced Reduce(const NormalEquations& equations, double damping, const AdjustmentOptions& options) {
   Reduced reduced{equations.A, equations.vector};
   reduced.matrix.diagonal() *= 1.0 + damping;
@@ -158,7 +158,8 @@ PairState Stepped(const PairState& state, const NormalEquations& equations, doub
   return stepped;
 }
 
-// Whether a step leaves sensible cameras behind: focal lengths stay positive.
+// Tells whether the cameras are still valid after a step, i.e. whether the focal lengths are
+// positive.
 bool IsSensible(const PairState& state, const PairVector& step) {
   if (!step.allFinite()) return false;
   using CameraVector = Eigen::Matrix<double, kCameraParameters, 1>;
@@ -210,7 +211,7 @@ AdjustedPair AdjustPair(const PairState& start, const std::vector<BoardView>& vi
                         const CalibrationBoard& board, const AdjustmentOptions& options) {
   FENESTRA_CHECK(start.X_LG.size() == views.size(), "each view needs a board pose to start from");
   constexpr int kMostSteps = 100;
-  constexpr double kSettled = 1e-12;  // Relative change of the sum of squares.
+  constexpr double kSettled = 1e-12;  // Relative change of the sum of squares at convergence.
   PairState state = start;
   NormalEquations equations = Linearise(state, views, board);
   if (!std::isfinite(equations.squared_residuals)) {

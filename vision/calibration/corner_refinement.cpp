@@ -13,12 +13,12 @@ constexpr int kUnknowns = 9;
 using Parameters = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-// Places of the unknowns.
+// Indices of the unknowns.
 enum : int { kX, kY, kAngle1, kAngle2, kBlur, kLevel, kContrast, kShadeX, kShadeY };
 
 constexpr double kLeastBlur_px = 0.1;
 constexpr double kLeastContrast_dn = 3.0;
-constexpr double kPixelVariance = 1.0 / 12.0;  // Of a unit square, in any direction.
+constexpr double kPixelVariance = 1.0 / 12.0;  // Variance of a unit square in any direction.
 
 // The antiderivative of the edge profile erf(x/(√2 s)), and its derivatives.
 struct ProfileIntegral {
@@ -33,9 +33,9 @@ struct ProfileIntegral {
   double by_s;
 };
 
-// One edge as pixels see it: blurred, then averaged over the pixel's square, which is as wide as
-// two boxes of |cos| and |sin| of the normal's angle. The wide box is integrated exactly; the
-// narrow one widens the blur by its variance.
+// One edge as pixels see it: blurred, then averaged over the pixel's square. Across the edge, the
+// square acts as two boxes of widths |cos| and |sin| of the normal's angle. The wide box is
+// integrated exactly; the narrow one adds its variance to the blur.
 struct Edge {
   Edge(double angle, double blur_px, const Vector2d& offset)
       : normal(std::cos(angle), std::sin(angle)) {
@@ -57,12 +57,13 @@ struct Edge {
   double by_offset;
   double by_angle;
   double by_blur;
-  double distance;  // In units of the whole blur.
+  double distance;  // In units of the total blur.
   double density;
 };
 
-// Blur moves both edges together; where they do not cross at right angles, ρ = n₁·n₂, the corner's
-// profile is erf erf and this: the tetrachoric series Σ ρᵏ/k! He_{k-1} He_{k-1} φ φ.
+// Correction for edges that are not perpendicular, ρ = n₁·n₂ ≠ 0. Since blur acts on both edges
+// jointly, the tetrachoric series Σ ρᵏ/k! He_{k-1} He_{k-1} φ φ is added to the corner's profile
+// erf erf.
 double Obliqueness(const Edge& first, const Edge& second) {
   const double rho = first.normal.dot(second.normal);
   const double x = first.distance;
@@ -113,7 +114,7 @@ double NormalAngle(const Vector2d& direction) {
   return std::atan2(direction.x(), -direction.y());
 }
 
-// Level and contrast that fit best with everything else as guessed: a linear problem.
+// Best level and contrast with all other unknowns as guessed, which is a linear problem.
 void FitGrey(const cv::Mat1b& image, double radius_px, Parameters& p) {
   p[kContrast] = 0.0;
   const auto normals = Linearise(image, p, radius_px);
@@ -141,7 +142,7 @@ std::optional<Vector2d> RefineCorner(const cv::Mat1b& image, const CornerGuess& 
     const Information full = normals->matrix.selfadjointView<Eigen::Lower>();
     Parameters step = full.ldlt().solve(normals->vector);
     if (!step.allFinite()) return std::nullopt;
-    // A corner is known to a pixel: longer steps come from a poor start.
+    // The corner is known to a pixel, so longer steps are caused by a poor start.
     const double length = step.head<2>().norm();
     if (length > 1.0) step /= length;
     p += step;

@@ -16,7 +16,7 @@ constexpr size_t kFewestShared = 6;
 constexpr size_t kFewestViews = 3;
 constexpr double kLargestFocalDeviation = 0.05;
 
-// Corners as OpenCV takes them: on the board and in the image.
+// Corners on the board and in the image, as OpenCV expects them.
 struct PointPairs {
   std::vector<cv::Point3f> on_board;
   std::vector<cv::Point2f> in_image;
@@ -40,7 +40,7 @@ PointPairs PairsOf(const std::vector<BoardCorner>& corners, const CalibrationBoa
   return pairs;
 }
 
-// What cv::calibrateCamera finds for one camera.
+// Result of cv::calibrateCamera for one camera.
 struct SingleCamera {
   cv::Matx33d matrix;
   cv::Mat distortion;
@@ -89,7 +89,7 @@ CameraModel ModelOf(const SingleCamera& camera, cv::Size size) {
                       .distortion = {.k1 = d(0), .k2 = d(1), .p1 = d(2), .p2 = d(3), .k3 = d(4)}});
 }
 
-// Corners of a view that both cameras saw.
+// The corners of a view that both cameras saw.
 struct SharedCorners {
   std::vector<cv::Point3f> on_board;
   std::vector<cv::Point2f> left;
@@ -157,14 +157,15 @@ double SquaredResiduals(const CameraModel& camera, const Pose& X_CG,
   return sum;
 }
 
-// Weighs each picture by its own residuals: blur, tilt and light make corners more certain in some
-// than in others by a factor of three, and a covariance that ignores it is not honest. Degrees of
-// freedom are taken from all pictures alike.
+// Weights each image by its own residuals. Because of blur, tilt and light, the accuracy of corners
+// differs between images by up to a factor of three, and a covariance that ignores this is wrong.
+// All images contribute equally to the degrees of freedom that are subtracted.
 void Weigh(const AdjustedPair& pair, const CalibrationBoard& board, std::vector<BoardView>& views) {
   const double freedom = 1.0 - static_cast<double>(pair.unknown_count) / pair.residual_count;
   const double usual = pair.variance();
   const auto weight = [&](double squared_residuals, size_t corners) {
-    // As if ten more residuals had been as usual: no picture counts without limit.
+    // Acts like ten additional residuals of typical size, so that no image gets an unlimited
+    // weight.
     constexpr double kPrior = 10.0;
     const double count = 2.0 * static_cast<double>(corners) * freedom;
     return usual * (count + kPrior) / (squared_residuals + kPrior * usual);

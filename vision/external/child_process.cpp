@@ -33,7 +33,7 @@ SteadyTime In(double seconds) {
          std::chrono::ceil<std::chrono::milliseconds>(std::chrono::duration<double>(seconds));
 }
 
-// For poll(); 0 when the time is up.
+// Remaining time for poll(); 0 when the limit is reached.
 int MillisecondsUntil(SteadyTime time) {
   const auto left =
       std::chrono::ceil<std::chrono::milliseconds>(time - std::chrono::steady_clock::now());
@@ -63,8 +63,8 @@ struct Pipe {
   }
 };
 
-// The signals of the new process are as at a login, whatever this one blocks or ignores; no other
-// file of this one is open in it.
+// The new process starts with default signal handling, whatever this one blocks or ignores, and
+// inherits no other open files.
 struct SpawnSettings {
   posix_spawnattr_t attributes{};
   posix_spawn_file_actions_t actions{};
@@ -93,8 +93,8 @@ struct SpawnSettings {
   SpawnSettings& operator=(const SpawnSettings&) = delete;
 };
 
-// Writing to a program that has ended raises SIGPIPE, which would end this one. Held back in this
-// thread alone, and taken off again: others may want the signal.
+// Writing to a program that has exited raises SIGPIPE, which would terminate this one. The signal
+// is blocked in this thread only and then consumed, since other threads may want it.
 class SigpipeHeldBack {
  public:
   SigpipeHeldBack() {
@@ -138,7 +138,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words) {
   if (failure != 0) {
     throw InputError(words.front(), fmt::format("cannot be started: {}", strerror(failure)));
   }
-  // By number: the header of glibc 2.36 lacks its extern "C".
+  // Called by number, since the header of glibc 2.36 lacks its extern "C".
   watch_ = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));
   input_ = Pipe::Keep(input.write);
   output_ = Pipe::Keep(output.read);
@@ -174,7 +174,7 @@ void ChildProcess::ReadErrors() {
   }
 }
 
-// False when the program does not read any more.
+// Returns false if the program no longer reads.
 bool ChildProcess::WriteSome(std::string_view& rest) {
   const SigpipeHeldBack held;
   while (!rest.empty()) {
@@ -220,7 +220,7 @@ ChildProcess::Reply ChildProcess::Exchange(std::string_view line, double limit_s
                                     {watch_, POLLIN, 0},
                                     {rest.empty() ? -1 : input_, POLLOUT, 0}}};
     poll(files.data(), files.size(), wait_ms);
-    // A process that has ended said all that it will; what is left in the pipe is read once more.
+    // A process that has exited writes no more, so the rest of the pipe is read once.
     ended = ended || (files[2].revents & POLLIN) != 0;
     if (files[3].revents != 0) ended = !WriteSome(rest) || ended;
   }
@@ -236,7 +236,8 @@ std::string ChildProcess::Stop(double grace_s) {
     pollfd watch{watch_, POLLIN, 0};
     poll(&watch, 1, MillisecondsUntil(deadline));
   }
-  kill(-process_, SIGKILL);  // Before the leader is reaped: until then the number is its group's.
+  kill(-process_,
+       SIGKILL);  // Must precede reaping the leader: until then the number belongs to its group.
   int status = 0;
   while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }

@@ -30,10 +30,10 @@ std::string DetectorProgram::Talk(const std::string& request, double limit_s) {
     throw DetectorFailure("flood", "it wrote more than the one line of an answer");
   }
   const std::string last = process_.LastError();
-  throw DetectorFailure("died", Told(last.empty() ? end : end + ": " + last));
+  throw DetectorFailure("died", WithoutFolder(last.empty() ? end : end + ": " + last));
 }
 
-std::string DetectorProgram::Told(const std::string& detail) const {
+std::string DetectorProgram::WithoutFolder(const std::string& detail) const {
   std::string told = detail;
   const std::string folder = folder_.path().string();
   for (size_t at = told.find(folder); at != std::string::npos; at = told.find(folder, at)) {
@@ -56,12 +56,13 @@ TimedDetection DetectorProgram::Ask(const Observation& observation,
     if (answer.stages.empty()) answer.stages = {{"answer", seconds}};
     return answer;
   } catch (const DetectorFailure& failure) {
-    // Who answers something else may be out of step; an error that is told is an orderly answer.
+    // A program that sends an unexpected answer may be out of step; a reported error is a proper
+    // answer.
     if (failure.kind() != "exception") {
       running_ = false;
       process_.Stop(0.0);
     }
-    throw DetectorFailure(failure.kind(), Told(failure.what()));
+    throw DetectorFailure(failure.kind(), WithoutFolder(failure.what()));
   }
 }
 

@@ -29,7 +29,7 @@ class DetectorProgram {
   /// Returns the answer; throws a DetectorFailure that says how the program ended.
   std::string Talk(const std::string& request, double limit_s);
   /// Replaces the path of the temporary folder, which differs in every run, by `.`.
-  std::string Told(const std::string& detail) const;
+  std::string WithoutFolder(const std::string& detail) const;
 
   ExternalCommand command_;
   PrivateFolder folder_;

@@ -11,7 +11,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Objects of ordered_json are searched from end to end: a line of keys alone would take minutes.
+// Objects of ordered_json are searched linearly, so a line that consists of keys would take
+// minutes.
 constexpr int kMostKeys = 5000;
 
 std::string Dump(const Json& json) {

@@ -5,46 +5,47 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/frame/adjustment/frame_support.h"
+#include "vision/frame/adjustment/frame_fit.h"
 #include "vision/frame/measurement/edge_points.h"
 #include "vision/frame/setback/settle_depth.h"
 
 namespace fenestra {
 namespace {
 
-// Edges are known to hundredths of a pixel, and where the model is wrong by one the loss would give
-// up a whole side at once. So first all points count as if they were so uncertain.
+// Edges are known to hundredths of a pixel, so where the model is wrong by a pixel the loss would
+// reject a whole side at once. The first rounds therefore treat all points as if they had this
+// uncertainty.
 constexpr double kRoughTolerance_px = 0.7;
 constexpr std::array<double, 3> kPlaneTolerances_px = {0.3, 0.0, 0.0};
-// Of a round after which others follow: up from here every third strip tells the frame as well.
+// Tolerance from which on every third strip suffices in a round that is not the last.
 constexpr double kCoarse_px = 0.3;
 // Sides in relief are less straight and less parallel than a frame's own.
 constexpr std::array<double, 3> kReliefTolerances_px = {0.3, 0.1, 0.05};
 constexpr std::array<double, 3> kCoarseTolerances_px = {0.7, 0.7, 0.7};
 constexpr double kLeastReach_px = 1.6;
-// Of the places along the inner sides; with fewer the border is left out.
+// Least share of the places along the inner sides; with less, the border is left out.
 constexpr double kLeastInnerSupport = 0.5;
-// Of each of them: upper and lower ones alone do not tell their depth.
+// Least share for each inner side, since the upper and lower ones alone do not determine their
+// depth.
 constexpr double kLeastOfInnerSide = 0.3;
-// With fewer in a first round it is not worth while to go on.
+// With less in a first round, further rounds are futile.
 constexpr double kHopelessSupport = 0.3;
-// Residuals where all sides are what they are taken for: so many of their standard deviations, or
-// what rounding makes of edges along rows. Between two planes, half a side's edges on either, both
-// are exceeded.
+// Largest residuals of a correct model: in standard deviations, or the effect of rounding on edges
+// along rows. If half of a side's edges lie in either of two planes, both are exceeded.
 constexpr double kMostScale = 2.5;
 constexpr double kMostOff_px = 0.03;
-// A relief of the inner sides of so many standard deviations is one.
+// A relief of the inner sides is significant from this many standard deviations on.
 constexpr double kSignificant = 3.0;
-// Of the places along each outer side.
+// Least share of the places along each outer side for a frame in one plane.
 constexpr double kFlatSupport = 0.5;
-// A wall's face or a sill stands up to some decimetre before the frame; see also kPanes.
+// A wall's face or a sill is up to about a decimetre in front of the frame; see also kPanes.
 constexpr ReliefPrior kWall{.mean_m = 0.05, .sigma_m = 0.06};
-// Where reliefs are not known better than that, they are left out.
+// Reliefs that are less certain than this are left out.
 constexpr double kMostRelief_m = 0.05;
-const FrameKnowledge kFree{
+const FramePrior kFree{
     .size = {}, .outer_relief = {}, .inner_relief = ReliefPrior{.mean_m = -0.05, .sigma_m = 0.1}};
 
-// Width of the border in the image, where it is narrowest.
+// Width of the border in the image where it is narrowest.
 double BorderPixels(const CameraView& view, const FrameRectangle& frame) {
   double least = 1e9;
   for (const Side side : kAllSides) {
@@ -83,17 +84,16 @@ double SigmaAlongNormal(const FrameFit& fit) {
 
 int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
                          std::vector<EdgePoint>& points) {
-  EdgeTuning& tuning =
-      tunings_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
-  SideEdges edges = MeasureSide(views_[view], frame, request, tuning);
+  EdgeNuisance& nuisance =
+      nuisances_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
+  SideEdges edges = MeasureSide(views_[view], frame, request, nuisance);
   points.insert(points.end(), edges.points.begin(), edges.points.end());
-  tuning = edges.tuning;
+  nuisance = edges.nuisance;
   return edges.places;
 }
 
-std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
-                                           const FrameKnowledge& knowledge, double tolerance_px,
-                                           bool is_last) {
+std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame, const FramePrior& prior,
+                                           double tolerance_px, bool is_last) {
   FrameFit fit;
   fit.points.resize(views_.size());
   PlaceCounts places;
@@ -129,7 +129,7 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
   for (std::vector<EdgePoint>& points : fit.points) {
     for (EdgePoint& point : points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
   }
-  FrameKnowledge all = knowledge;
+  FramePrior all = prior;
   all.planes = settings_.planes;
   auto adjustment = AdjustFrame(views_, fit.points, frame, all);
   if (!adjustment) return std::nullopt;
@@ -138,10 +138,10 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame,
   return fit;
 }
 
-std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FrameKnowledge& knowledge,
+std::optional<FrameFit> FrameFitter::Rounds(FrameFit fit, const FramePrior& prior,
                                             std::span<const double> tolerances_px) {
   for (size_t i = 0; i < tolerances_px.size(); ++i) {
-    FrameKnowledge now = knowledge;
+    FramePrior now = prior;
     const bool is_last = i + 1 == tolerances_px.size();
     if (is_last) now.size = settings_.size;
     auto next = Round(fit.adjustment.frame, now, tolerances_px[i], is_last);
@@ -163,8 +163,8 @@ std::optional<FrameFit> FrameFitter::FitInOnePlane(const FrameFit& start) {
   if (!fit || fit->LeastSupport() < kFlatSupport) return std::nullopt;
   if (border_) {
     if (!HasInnerSides(*fit) || !IsConsistent(*fit)) return std::nullopt;
-    // Nor may they be better explained by another one.
-    FrameKnowledge free = kFree;
+    // Another plane must not explain them better.
+    FramePrior free = kFree;
     free.planes = settings_.planes;
     const auto freed = AdjustFrame(views_, fit->points, fit->adjustment.frame, free);
     if (freed && std::abs(freed->frame.inner_relief_m) >
@@ -215,7 +215,7 @@ std::variant<FrameFit, Miss> FrameFitter::Finish(const FrameFit& rough) {
   }
   if (!fit) fit = FitInRelief(start);
   if (fit) fit->front = fit->adjustment.frame;
-  // Where planes were measured, they and what is known of their offset say where the front is.
+  // If planes were measured, they and their known offset determine where the front is.
   if (fit && settings_.planes.empty()) SettleDepth(views_, RevealGreyOf(settings_), *fit);
   if (!fit) return Miss{"no_edges", "too few edge points to fix a rectangle"};
   if (fit->LeastSupport() < settings_.min_side_support) {

@@ -33,7 +33,7 @@ class FrameFitter {
  public:
   /// The views must outlive the fitter.
   FrameFitter(std::span<const CameraView> views, const FrameFitSettings& settings)
-      : views_(views), settings_(settings), tunings_(views.size()) {}
+      : views_(views), settings_(settings), nuisances_(views.size()) {}
 
   /// Replaces the planes given in the settings.
   void UsePlanes(std::vector<PlaneMeasurement> planes) { settings_.planes = std::move(planes); }
@@ -57,12 +57,12 @@ class FrameFitter {
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);
 
  private:
-  std::optional<FrameFit> Round(const FrameRectangle& frame, const FrameKnowledge& knowledge,
+  std::optional<FrameFit> Round(const FrameRectangle& frame, const FramePrior& prior,
                                 double tolerance_px, bool is_last);
   std::optional<FrameFit> FitInOnePlane(const FrameFit& start);
   std::optional<FrameFit> FitBeforePanes(const FrameFit& start);
   std::optional<FrameFit> FitInRelief(const FrameFit& start);
-  std::optional<FrameFit> Rounds(FrameFit fit, const FrameKnowledge& knowledge,
+  std::optional<FrameFit> Rounds(FrameFit fit, const FramePrior& prior,
                                  std::span<const double> tolerances_px);
   int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
               std::vector<EdgePoint>& points);
@@ -70,7 +70,7 @@ class FrameFitter {
   std::span<const CameraView> views_;
   FrameFitSettings settings_;
   std::optional<BorderFound> border_;
-  std::vector<std::array<std::array<EdgeTuning, 4>, 2>> tunings_;  // View, border, side.
+  std::vector<std::array<std::array<EdgeNuisance, 4>, 2>> nuisances_;  // View, border, side.
 };
 
 }  // namespace fenestra

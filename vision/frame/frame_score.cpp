@@ -7,7 +7,7 @@
 namespace fenestra {
 namespace {
 
-// What a frame's score is worth whose sides are not in one plane.
+// Factor on the score of a frame whose sides do not lie in one plane.
 constexpr double kNotFlat = 0.85;
 
 double ClarityIn(const CameraView& view, const FrameRectangle& frame,

@@ -1,13 +1,38 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <opencv2/core.hpp>
 
 #include "core/detection/observation.h"
+#include "core/detection/stage_log.h"
 #include "core/geometry/calibration.h"
-#include "vision/stereo/rectified_camera.h"
 
 namespace fenestra {
+
+/// The rectified pair: two pinhole cameras with the same K and parallel axes, the right one
+/// displaced by the baseline along +x. Frame F is that of the rectified left camera; it shares its
+/// origin with L.
+///
+///     u = f X/Z + cx,   v = f Y/Z + cy                                    (rectified left pixel)
+///     d = u_left - u_right = f B / Z                                      (disparity)
+///
+/// f, cx, cy, d [px]; B, X, Y, Z [m].
+struct RectifiedCamera {
+  double f_px = 0.0;
+  double cx_px = 0.0;
+  double cy_px = 0.0;
+  double baseline_m = 0.0;
+
+  /// Converts by Z = f B / d. Domain: positive values. First-order error: σ_Z = Z² σ_d / (f B).
+  double DepthFromDisparity(double disparity_px) const { return f_px * baseline_m / disparity_px; }
+  double DisparityFromDepth(double depth_m) const { return f_px * baseline_m / depth_m; }
+
+  /// The direction (x, y, 1) of a pixel's ray in F.
+  Eigen::Vector3d Ray(const Eigen::Vector2d& pixel) const {
+    return {(pixel.x() - cx_px) / f_px, (pixel.y() - cy_px) / f_px, 1.0};
+  }
+};
 
 /// Both images of a pair, resampled so that a point in space has the same row in both.
 struct RectifiedPair {
@@ -54,5 +79,13 @@ class StereoRectification {
   View left_;
   View right_;
 };
+
+/// Draws both images side by side with horizontal lines, on which corresponding points must have
+/// the same height.
+cv::Mat3b DrawRectifiedPair(const RectifiedPair& pair);
+
+/// Views that project points in L into DrawRectifiedPair's picture. The first one is for its left
+/// half, and for any picture of the rectified left camera; the second is for its right half.
+std::array<PictureView, 2> RectifiedViews(const StereoRectification& rectification);
 
 }  // namespace fenestra

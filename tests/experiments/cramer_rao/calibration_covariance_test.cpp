@@ -18,7 +18,7 @@ StereoRigOptions SmallImages() {
   return options;
 }
 
-// What is told of rigs, held against the covariance that the law states: e⁺ᵀ C⁻¹ e summed over
+// Errors of nominal calibrations, held against their covariance: e⁺ᵀ C⁻¹ e summed over
 // rigs is χ² with as many degrees of freedom as C has ranks, times the rigs.
 struct Agreement {
   double sum = 0.0;
@@ -37,12 +37,12 @@ Agreement AgreementOf(const CalibrationChoice& choice) {
   for (uint64_t seed = 0; seed < 300; ++seed) {
     const StereoRig rig(SmallImages(), RandomStream(seed).Child("rig"));
     const CalibratedRig calibrated = Calibrated(rig, choice, RandomStream(seed), {});
-    const PairVector error = PairError(calibrated.told, rig.cameras());
-    const PairMatrix law = calibrated.law.value();
+    const PairVector error = PairError(calibrated.nominal, rig.cameras());
+    const PairMatrix covariance = calibrated.covariance.value();
     // In units of each parameter, so that their sizes do not hide the rank.
-    const PairVector units = law.diagonal().cwiseSqrt().cwiseMax(1e-12);
+    const PairVector units = covariance.diagonal().cwiseSqrt().cwiseMax(1e-12);
     const PairVector inverse = units.cwiseInverse();
-    const Eigen::SelfAdjointEigenSolver<PairMatrix> solver(inverse.asDiagonal() * law *
+    const Eigen::SelfAdjointEigenSolver<PairMatrix> solver(inverse.asDiagonal() * covariance *
                                                            inverse.asDiagonal());
     const PairVector in_axes = solver.eigenvectors().transpose() * inverse.cwiseProduct(error);
     for (int i = 0; i < kPairParameters; ++i) {
@@ -54,7 +54,7 @@ Agreement AgreementOf(const CalibrationChoice& choice) {
   return agreement;
 }
 
-TEST(CalibrationLawTest, StatesHowFarWhatIsToldIsFromTheTruth) {
+TEST(CalibrationCovarianceTest, StatesHowFarWhatIsToldIsFromTheTruth) {
   for (const CalibrationChoice& choice :
        {CalibrationChoice{.source = CalibrationSource::kPerturbed,
        .rotation_error_rad = 2e-3,
@@ -69,16 +69,17 @@ TEST(CalibrationLawTest, StatesHowFarWhatIsToldIsFromTheTruth) {
   }
 }
 
-TEST(CalibrationLawTest, ExactIsCertainAndAShakeAddsToTheBoards) {
+TEST(CalibrationCovarianceTest, ExactIsCertainAndAShakeAddsToTheBoards) {
   const StereoRig rig(SmallImages(), RandomStream(1));
-  EXPECT_FALSE(CalibrationLaw(rig, {.source = CalibrationSource::kExact}, {}).has_value());
+  EXPECT_FALSE(CalibrationCovariance(rig, {.source = CalibrationSource::kExact}, {}).has_value());
   const PairMatrix boards = 1e-8 * PairMatrix::Identity();
-  EXPECT_EQ(CalibrationLaw(rig, {.source = CalibrationSource::kBoards}, boards), boards);
-  const PairMatrix stale = *CalibrationLaw(
+  EXPECT_EQ(CalibrationCovariance(rig, {.source = CalibrationSource::kBoards}, boards), boards);
+  const PairMatrix stale = *CalibrationCovariance(
       rig, {.source = CalibrationSource::kStale, .shake_rotation_rad = 1e-3}, boards);
   EXPECT_NEAR(stale(19, 19), 1e-8 + 1e-6, 1e-15);
   EXPECT_EQ(stale(0, 0), 1e-8);
-  EXPECT_THROW(CalibrationLaw(rig, {.source = CalibrationSource::kBoards}, {}), std::logic_error);
+  EXPECT_THROW(CalibrationCovariance(rig, {.source = CalibrationSource::kBoards}, {}),
+               std::logic_error);
 }
 
 }  // namespace

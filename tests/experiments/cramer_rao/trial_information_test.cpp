@@ -32,10 +32,10 @@ constexpr char kStereo[] =
 TEST(TrialInformationTest, ADetectorOfEdgesComesNearTheBoundOfRenderedTrialsAndNotBelow) {
   constexpr int kTrials = 20;
   const Study study = StudyOf(kStereo);
-  const CellBench bench(study, CellOf(study, 0));
+  const CellRunner runner(study, CellOf(study, 0));
   double sum = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const TrialRecord record = bench.Try(0, bench.Simulate(trial), false).record;
+    const TrialRecord record = runner.Try(0, runner.Simulate(trial), false).record;
     ASSERT_EQ(record.score.outcome, Outcome::kHit) << record.score.reason;
     ASSERT_TRUE(record.bound_C.has_value());
     const Eigen::Vector3d error = record.score.CentroidError_C().value();
@@ -73,7 +73,7 @@ TEST(TrialInformationTest, OutOfViewAndWithoutATargetThereIsNone) {
                                             "  distance_m: 3\n") +
                                 factor);
     for (const Cell& cell : Cells(study)) {
-      EXPECT_FALSE(CellBench(study, cell).Simulate(0).information.has_value()) << factor;
+      EXPECT_FALSE(CellRunner(study, cell).Simulate(0).information.has_value()) << factor;
     }
   }
 }

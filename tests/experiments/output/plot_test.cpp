@@ -19,7 +19,7 @@ cv::Mat3b Canvas() {
   return WhiteCanvas({640, 460});
 }
 
-PlotFrame Frame(const PlotAxis& x, const PlotAxis& y) {
+PlotLayout Layout(const PlotAxis& x, const PlotAxis& y) {
   return {.area = {0, 0, 640, 460}, .title = "", .x = x, .y = y};
 }
 
@@ -29,9 +29,9 @@ int Marked(const cv::Mat3b& canvas) {
   return cv::countNonZero(mask);
 }
 
-cv::Point2d PlaceOf(const PlotFrame& frame, cv::Point2d point) {
+cv::Point2d PlaceOf(const PlotLayout& layout, cv::Point2d point) {
   cv::Mat3b canvas = Canvas();
-  Plot(canvas, frame).Points(std::vector<cv::Point2d>{point}, kMark);
+  Plot(canvas, layout).Points(std::vector<cv::Point2d>{point}, kMark);
   cv::Mat1b mask;
   cv::inRange(canvas, kMark, kMark, mask);
   const cv::Moments m = cv::moments(mask, true);
@@ -70,10 +70,10 @@ TEST(RoundTicksTest, EndForRangesThatAreNone) {
 }
 
 TEST(PlotTest, PointsGrowToTheRightAndUpwardsInProportion) {
-  const PlotFrame frame = Frame({"x", 0.0, 10.0}, {"y", -1.0, 1.0});
-  const cv::Point2d low = PlaceOf(frame, {2.5, -0.5});
-  const cv::Point2d middle = PlaceOf(frame, {5.0, 0.0});
-  const cv::Point2d high = PlaceOf(frame, {7.5, 0.5});
+  const PlotLayout layout = Layout({"x", 0.0, 10.0}, {"y", -1.0, 1.0});
+  const cv::Point2d low = PlaceOf(layout, {2.5, -0.5});
+  const cv::Point2d middle = PlaceOf(layout, {5.0, 0.0});
+  const cv::Point2d high = PlaceOf(layout, {7.5, 0.5});
   EXPECT_GT(middle.x, low.x);
   EXPECT_LT(middle.y, low.y);  // Rows grow downwards.
   // Drawn to a sixteenth of a pixel; the centre of its full pixels is within half of one.
@@ -82,10 +82,10 @@ TEST(PlotTest, PointsGrowToTheRightAndUpwardsInProportion) {
 }
 
 TEST(PlotTest, DecadesOfALogarithmicAxisAreEquallyLong) {
-  const PlotFrame frame = Frame({"x", 1.0, 1e4, true}, {"y", 0.0, 1.0});
-  const double first = PlaceOf(frame, {10.0, 0.5}).x;
-  const double second = PlaceOf(frame, {100.0, 0.5}).x;
-  const double third = PlaceOf(frame, {1000.0, 0.5}).x;
+  const PlotLayout layout = Layout({"x", 1.0, 1e4, true}, {"y", 0.0, 1.0});
+  const double first = PlaceOf(layout, {10.0, 0.5}).x;
+  const double second = PlaceOf(layout, {100.0, 0.5}).x;
+  const double third = PlaceOf(layout, {1000.0, 0.5}).x;
   EXPECT_GT(second, first + 50.0);
   EXPECT_NEAR(third - second, second - first, 1.0);
 }
@@ -93,7 +93,7 @@ TEST(PlotTest, DecadesOfALogarithmicAxisAreEquallyLong) {
 TEST(PlotTest, WhatIsOutsideTheAxesIsNotDrawn) {
   for (const bool logarithmic : {false, true}) {
     cv::Mat3b canvas = Canvas();
-    Plot plot(canvas, Frame({"x", 1.0, 10.0, logarithmic}, {"y", 1.0, 10.0, logarithmic}));
+    Plot plot(canvas, Layout({"x", 1.0, 10.0, logarithmic}, {"y", 1.0, 10.0, logarithmic}));
     const cv::Mat3b empty = canvas.clone();
     plot.Points(
         std::vector<cv::Point2d>{{0.9, 5}, {11, 5}, {5, 0}, {5, 11}, {-5, 5}, {NAN, 5}, {5, NAN}},
@@ -109,10 +109,10 @@ TEST(PlotTest, WhatIsOutsideTheAxesIsNotDrawn) {
 
 TEST(PlotTest, APlotStaysInItsPart) {
   cv::Mat3b canvas = WhiteCanvas({1280, 460});
-  PlotFrame frame =
-      Frame({"photons per pixel", 1.0, 1e5, true}, {"signal to noise", 0.5, 300, true});
-  frame.title = "Signal to noise: largest 41.8 dB, dynamic range 55.3 dB";
-  Plot plot(canvas, frame);
+  PlotLayout layout =
+      Layout({"photons per pixel", 1.0, 1e5, true}, {"signal to noise", 0.5, 300, true});
+  layout.title = "Signal to noise: largest 41.8 dB, dynamic range 55.3 dB";
+  Plot plot(canvas, layout);
   plot.Points(std::vector<cv::Point2d>{{1.0, 0.5}, {100.0, 10.0}}, plot_color::kBlue, "pairs");
   plot.Line(std::vector<cv::Point2d>{{1.0, 1.0}, {1e5, 300.0}}, plot_color::kGreen, "model");
   plot.VerticalMark(5e4, "saturation");

@@ -10,16 +10,16 @@
 
 namespace fenestra::testing {
 
-/// A bench whose sensor and detectors take no time: the trial is sampled as a real one, its images
+/// A runner whose sensor and detectors take no time: the trial is sampled as a real one, its images
 /// have one pixel, and each detector's row follows from the trial's stream and the detector's
 /// label, a hit with numbers in every field.
-class MockBench final : public TrialBench {
+class MockRunner final : public TrialRunner {
  public:
-  MockBench(const Study& study, const Cell& cell)
+  MockRunner(const Study& study, const Cell& cell)
       : study_(study), cell_(cell), detectors_(DetectorsOf(study, cell)) {}
 
-  static std::shared_ptr<const TrialBench> Make(const Study& study, const Cell& cell) {
-    return std::make_shared<const MockBench>(study, cell);
+  static std::shared_ptr<const TrialRunner> Make(const Study& study, const Cell& cell) {
+    return std::make_shared<const MockRunner>(study, cell);
   }
 
   const Cell& cell() const override { return cell_; }

@@ -21,7 +21,7 @@ inline Study MockStudy(int repetitions, int seed = 3) {
   return ReadStudy(YamlReader::FromText(text, "mock.yaml"), Detectors());
 }
 
-/// On mock benches, with two jobs.
+/// On mock runners, with two jobs.
 inline StudyRun MockRun(const Study& study, const std::filesystem::path& out, Shard shard = {}) {
   return {.study = study,
           .study_text = "",
@@ -29,10 +29,10 @@ inline StudyRun MockRun(const Study& study, const std::filesystem::path& out, Sh
           .jobs = 2,
           .shard = shard,
           .pictures = false,
-          .make_bench = MockBench::Make};
+          .make_runner = MockRunner::Make};
 }
 
-/// All rows, to the last bit: the times of mock benches are constant.
+/// All rows, to the last bit: the times of mock runners are constant.
 inline std::string RowsIn(const std::filesystem::path& out) {
   return TrialsCsv(ResultStore::OpenReadOnly(out / "results.sqlite").Rows());
 }

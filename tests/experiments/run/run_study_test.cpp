@@ -23,8 +23,8 @@ namespace {
 using std::chrono::milliseconds;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using testing::MockBench;
 using testing::MockRun;
+using testing::MockRunner;
 using testing::MockStudy;
 using testing::ReadFile;
 using testing::Refusal;
@@ -32,10 +32,10 @@ using testing::RowsIn;
 using testing::TemporaryFolder;
 
 /// A mock whose trials take a millisecond.
-std::shared_ptr<const TrialBench> MakeSlowBench(const Study& study, const Cell& cell) {
-  class SlowBench : public TrialBench {
+std::shared_ptr<const TrialRunner> MakeSlowRunner(const Study& study, const Cell& cell) {
+  class SlowRunner : public TrialRunner {
    public:
-    SlowBench(const Study& s, const Cell& c) : quick_(s, c) {}
+    SlowRunner(const Study& s, const Cell& c) : quick_(s, c) {}
     const Cell& cell() const override { return quick_.cell(); }
     const std::vector<DetectorChoice>& detectors() const override { return quick_.detectors(); }
     SimulatedTrial Simulate(int trial) const override {
@@ -52,9 +52,9 @@ std::shared_ptr<const TrialBench> MakeSlowBench(const Study& study, const Cell& 
     TruthImages TruthOf(const SimulatedTrial& s) const override { return quick_.TruthOf(s); }
 
    private:
-    MockBench quick_;
+    MockRunner quick_;
   };
-  return std::make_shared<const SlowBench>(study, cell);
+  return std::make_shared<const SlowRunner>(study, cell);
 }
 
 TEST(RunStudyTest, ARunThatWasStoppedGoesOnAndGivesTheRowsOfOneThatWasNot) {
@@ -86,7 +86,7 @@ TEST(RunStudyTest, ACompleteResultIsLeftAsItIs) {
   StudyRun run = MockRun(MockStudy(2), folder / "out");
   const StudyResult first = RunStudy(run);
   const std::string before = ReadFile(run.out / "results.sqlite");
-  run.make_bench = [](const Study&, const Cell&) -> std::shared_ptr<const TrialBench> {
+  run.make_runner = [](const Study&, const Cell&) -> std::shared_ptr<const TrialRunner> {
     throw std::logic_error("a trial was run");
   };
   const StudyResult second = RunStudy(run);
@@ -143,7 +143,7 @@ TEST(RunStudyTest, TheFirstTrialThatCannotBeStoredEndsTheRun) {
   const TemporaryFolder folder;
   StudyRun run = MockRun(MockStudy(200), folder / "out");
   run.store_interval = milliseconds(1);
-  run.make_bench = MakeSlowBench;
+  run.make_runner = MakeSlowRunner;
   run.on_stored = [](auto) { throw InputError("disk", "is full"); };
   EXPECT_THAT(Refusal([&] { RunStudy(run); }), HasSubstr("disk: is full"));
   EXPECT_LT(ResultStore::OpenReadOnly(run.out / "results.sqlite").FinishedTrials().size(), 600u);
@@ -189,7 +189,7 @@ TEST(RunStudyTest, FiftyKillsAtRandomMomentsLoseNothingAndDoubleNothing) {
   const TemporaryFolder folder;
   const Study study = MockStudy(1000);
   StudyRun run = MockRun(study, folder / "killed");
-  run.make_bench = MakeSlowBench;
+  run.make_runner = MakeSlowRunner;
   run.store_interval = milliseconds(3);
   folder.Write("reported", "");
   const RandomStream random(50);

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
+
+#include "experiments/study/factors.h"
 
 namespace fenestra {
 namespace {
@@ -38,83 +41,86 @@ TEST(BoardCalibrationTest, BoardsTellTheRigToWhatTheirCovarianceSays) {
   EXPECT_GT(design.cwiseAbs()[0], 5.0 * deviation[0]);
 }
 
-TEST(BoardCalibrationTest, ContentTellsWhateverTheResultDependsOn) {
-  const StereoRig rig(SmallImages(), RandomStream(1));
-  const BoardSessionOptions session;
-  const RandomStream stream(2);
-  std::vector<std::string> contents = {ContentOf(rig, session, stream)};
-  EXPECT_EQ(contents[0], ContentOf(StereoRig(SmallImages(), RandomStream(1)), session, stream));
-  contents.push_back(ContentOf(rig, session, RandomStream(3)));
-  contents.push_back(ContentOf(StereoRig(SmallImages(), RandomStream(7)), session, stream));
+// The same factor with another value that is allowed.
+ParameterValue OtherValue(const ParameterInfo& info, const ParameterValue& value) {
+  if (const bool* on = std::get_if<bool>(&value)) return !*on;
+  if (const auto* word = std::get_if<std::string>(&value)) {
+    return info.choices.front() == *word ? info.choices.back() : info.choices.front();
+  }
+  const double number = std::get<double>(value);
+  const double step = info.type == ParameterInfo::Type::kInteger ? 1.0 : 0.01 * std::abs(number);
+  for (const double other : {number + step, number - step, info.max, info.min}) {
+    if (other != number && other >= info.min && other <= info.max) return other;
+  }
+  return value;
+}
 
-  using Rig = StereoRigOptions;
-  for (const auto& change : std::vector<void (*)(Rig&)>{
-           [](Rig& o) { o.width_px += 1; },
-           [](Rig& o) { o.height_px += 1; },
-           [](Rig& o) { o.pixel_pitch_m *= 1.01; },
-           [](Rig& o) { o.focal_length_m *= 1.01; },
-           [](Rig& o) { o.baseline_m *= 1.01; },
-           [](Rig& o) { o.distortion.k1 *= 1.01; },
-           [](Rig& o) { o.distortion.k3 = 1e-4; },
-           [](Rig& o) { o.lens.f_number *= 1.01; },
-           [](Rig& o) { o.lens.transmission *= 0.99; },
-           [](Rig& o) { o.lens.blur_sigma_px *= 1.01; },
-           [](Rig& o) { o.lens.corner_blur_sigma_px *= 1.01; },
-           [](Rig& o) { o.lens.corner_illumination *= 0.99; },
-           [](Rig& o) { o.spectrum.illuminant = Illuminant::kIncandescent; },
-           [](Rig& o) { o.spectrum.cut_off_nm += 1.0; },
-           [](Rig& o) { o.spectrum.quantum_efficiency_scale *= 1.01; },
-           [](Rig& o) { o.sensor.saturation_e *= 1.01; },
-           [](Rig& o) { o.sensor.read_noise_e *= 1.01; },
-           [](Rig& o) { o.sensor.dark_current_e_s *= 1.01; },
-           [](Rig& o) { o.sensor.dark_current_doubling_k *= 1.01; },
-           [](Rig& o) { o.sensor.temperature_c += 1.0; },
-           [](Rig& o) { o.sensor.dsnu_e *= 1.01; },
-           [](Rig& o) { o.sensor.prnu *= 1.01; },
-           [](Rig& o) { o.sensor.row_noise_e *= 1.01; },
-           [](Rig& o) { o.sensor.adc_bits = 12; },
-           [](Rig& o) { o.sensor.output_bits = 10; },
-           [](Rig& o) { o.sensor.black_level_dn += 1.0; },
-           [](Rig& o) { o.sensor.noise = false; },
-           [](Rig& o) { o.sensor.fixed_pattern = false; },
-           [](Rig& o) { o.exposure.automatic = false; },
-           [](Rig& o) { o.exposure.set_point *= 1.01; },
-           [](Rig& o) { o.exposure.exposure_s *= 1.01; },
-           [](Rig& o) { o.exposure.gain *= 1.01; },
-           [](Rig& o) { o.exposure.shortest_s *= 1.01; },
-           [](Rig& o) { o.exposure.longest_s *= 1.01; },
-           [](Rig& o) { o.exposure.largest_gain *= 1.01; },
-           [](Rig& o) { o.as_designed = true; },
-           [](Rig& o) { o.tolerances.rotation_rad *= 1.01; },
-           [](Rig& o) { o.edge_samples_per_pixel = 64; }}) {
-    StereoRigOptions options = SmallImages();
-    change(options);
-    contents.push_back(ContentOf(StereoRig(options, RandomStream(1)), session, stream));
+std::string ContentOf(const TrialSettings& settings) {
+  return ContentOf(StereoRig(settings.stereo, RandomStream(1)), settings.stereo_calibration,
+                   RandomStream(2));
+}
+
+TEST(BoardCalibrationTest, EveryFactorOfRigAndBoardsIsInTheContent) {
+  // The boards are photographed standing still, before the rig is shaken, and whoever it is told.
+  const std::set<std::string> without_effect = {"stereo_rig_per_trial",
+                                                "stereo_calibration",
+                                                "stereo_shake_rotation_mrad",
+                                                "stereo_shake_translation_mm",
+                                                "stereo_calibration_rotation_error_mrad",
+                                                "stereo_calibration_translation_error_mm",
+                                                "stereo_speed_right_m_s",
+                                                "stereo_speed_down_m_s",
+                                                "stereo_speed_forward_m_s",
+                                                "stereo_pitch_rate_deg_s",
+                                                "stereo_yaw_rate_deg_s",
+                                                "stereo_roll_rate_deg_s",
+                                                "stereo_trigger_skew_us"};
+  TrialSettings settings;
+  settings.stereo = SmallImages();
+  std::map<std::string, std::string> factor_of_content = {{ContentOf(settings), "none"}};
+  for (const ParameterInfo& info : Factors().infos()) {
+    if (GroupOf(info.name) != FactorGroup::kStereo) continue;
+    TrialSettings other = settings;
+    const ParameterValue before = Factors().Get(settings, info.name);
+    Factors().Set(other, info.name, OtherValue(info, before));
+    ASSERT_NE(Factors().Get(other, info.name), before) << info.name;
+    const auto [same, is_new] = factor_of_content.emplace(ContentOf(other), info.name);
+    EXPECT_EQ(is_new, !without_effect.contains(info.name)) << info.name << ", " << same->second;
   }
-  using Session = BoardSessionOptions;
-  for (const auto& change : std::vector<void (*)(Session&)>{
-           [](Session& o) { o.board.kind = BoardKind::kCharuco; },
-           [](Session& o) { o.board.columns += 2; }, [](Session& o) { o.board.rows += 2; },
-           [](Session& o) { o.board.square_m *= 1.01; },
-           [](Session& o) { o.board.marker_m *= 1.01; }, [](Session& o) { o.views -= 1; },
-           [](Session& o) { o.illuminance_lx *= 1.01; },
-           [](Session& o) { o.smallest_share *= 1.01; },
-           [](Session& o) { o.largest_share *= 1.01; },
-           [](Session& o) { o.largest_tilt_rad *= 1.01; },
-           [](Session& o) { o.largest_roll_rad *= 1.01; }}) {
-    BoardSessionOptions other = session;
-    change(other);
-    contents.push_back(ContentOf(rig, other, stream));
+}
+
+TEST(BoardCalibrationTest, EachRigAndEachSessionHasItsOwnContent) {
+  const StereoRig rig(SmallImages(), RandomStream(1));
+  const RandomStream stream(2);
+  const std::string content = ContentOf(rig, {}, stream);
+  EXPECT_EQ(content, ContentOf(StereoRig(SmallImages(), RandomStream(1)), {}, stream));
+  EXPECT_NE(content, ContentOf(StereoRig(SmallImages(), RandomStream(7)), {}, stream));
+  EXPECT_NE(content, ContentOf(rig, {}, RandomStream(3)));
+  EXPECT_NE(content, ContentOf(rig.Displaced(Pose::Translation({1e-4, 0.0, 0.0})), {}, stream));
+}
+
+TEST(BoardCalibrationTest, TrialsThatDifferInTheSceneAloneShareACalibration) {
+  TrialSettings settings;
+  settings.stereo = SmallImages();
+  for (const ParameterInfo& info : Factors().infos()) {
+    if (GroupOf(info.name) == FactorGroup::kStereo) continue;
+    TrialSettings other = settings;
+    Factors().Set(other, info.name, OtherValue(info, Factors().Get(settings, info.name)));
+    EXPECT_EQ(ContentOf(other), ContentOf(settings)) << info.name;
   }
-  std::sort(contents.begin(), contents.end());
-  EXPECT_EQ(std::adjacent_find(contents.begin(), contents.end()), contents.end());
 }
 
 TEST(BoardCalibrationTest, ARigThatMovesIsCalibratedStandingStill) {
   StereoRigOptions moving = SmallImages();
+  moving.motion.velocity_B = {5.0, 1.0, -2.0};
+  moving.motion.angular_velocity_B = {1.0, 2.0, 3.0};
   moving.trigger_skew_s = 1e-3;
-  EXPECT_EQ(ContentOf(StereoRig(moving, RandomStream(1)), {}, RandomStream(2)),
-            ContentOf(StereoRig(SmallImages(), RandomStream(1)), {}, RandomStream(2)));
+  const BoardSessionOptions session;
+  const BoardWorld world(session.board);
+  const auto left = [&](const StereoRigOptions& options) {
+    return ShootBoard(StereoRig(options, RandomStream(1)), world, session, RandomStream(2)).left;
+  };
+  EXPECT_EQ(cv::norm(left(moving), left(SmallImages())), 0.0);
 }
 
 }  // namespace

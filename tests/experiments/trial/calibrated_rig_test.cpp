@@ -19,14 +19,14 @@ StereoRigOptions SmallImages() {
   return options;
 }
 
-StereoCalibration Told(const StereoRig& rig, const CalibrationChoice& choice, uint64_t seed) {
-  return Calibrated(rig, choice, RandomStream(seed), {}).told;
+StereoCalibration Nominal(const StereoRig& rig, const CalibrationChoice& choice, uint64_t seed) {
+  return Calibrated(rig, choice, RandomStream(seed), {}).nominal;
 }
 
 TEST(CalibrationChoiceTest, ExactIsTheTruthAndDesignTheDrawing) {
   const StereoRig rig(SmallImages(), RandomStream(1));
-  EXPECT_EQ(Told(rig, {.source = CalibrationSource::kExact}, 2), rig.cameras());
-  EXPECT_EQ(Told(rig, {.source = CalibrationSource::kDesign}, 2), DesignOf(SmallImages()));
+  EXPECT_EQ(Nominal(rig, {.source = CalibrationSource::kExact}, 2), rig.cameras());
+  EXPECT_EQ(Nominal(rig, {.source = CalibrationSource::kDesign}, 2), DesignOf(SmallImages()));
   EXPECT_NE(DesignOf(SmallImages()), rig.cameras());
 }
 
@@ -91,13 +91,13 @@ TEST(CalibrationChoiceTest, PerturbedErrsByWhatItIsAskedFor) {
                                  .translation_error_m = 2e-4};
   std::vector<Displacement> errors;
   for (uint64_t seed = 0; seed < 500; ++seed) {
-    const StereoCalibration told = Told(rig, choice, seed);
-    EXPECT_EQ(told.left, rig.cameras().left);
-    EXPECT_EQ(told.right, rig.cameras().right);
-    errors.push_back(Between(rig.cameras().X_RL, told.X_RL));
+    const StereoCalibration nominal = Nominal(rig, choice, seed);
+    EXPECT_EQ(nominal.left, rig.cameras().left);
+    EXPECT_EQ(nominal.right, rig.cameras().right);
+    errors.push_back(Between(rig.cameras().X_RL, nominal.X_RL));
   }
   ExpectNormal(errors, choice.rotation_error_rad, choice.translation_error_m);
-  EXPECT_EQ(Told(rig, choice, 7), Told(rig, choice, 7));
+  EXPECT_EQ(Nominal(rig, choice, 7), Nominal(rig, choice, 7));
 }
 
 // Calibrations of rigs with few pixels: a cache that already holds one for each session with
@@ -107,9 +107,7 @@ class PreparedBoards {
   explicit PreparedBoards(const StereoRig& rig) : rig_(rig.WithNoise()), cache_(folder_.path()) {}
 
   const CalibrationCache& For(const CalibrationChoice& choice, const RandomStream& stream) {
-    BoardSessionOptions session;
-    session.views = choice.boards;
-    cache_.Get(ContentOf(rig_, session, stream.Child("boards")), [] {
+    cache_.Get(ContentOf(rig_, choice, stream.Child("boards")), [] {
       return StatedCalibration{Known(), PairMatrix::Zero()};
     });
     return cache_;
@@ -131,7 +129,7 @@ TEST(CalibrationChoiceTest, AShakeMovesTheRightCameraAsFarAsItIsAskedTo) {
   for (uint64_t seed = 0; seed < 500; ++seed) {
     const RandomStream stream(seed);
     const CalibratedRig shaken = Calibrated(rig, stale, stream, prepared.For(stale, stream));
-    EXPECT_EQ(shaken.told, PreparedBoards::Known());
+    EXPECT_EQ(shaken.nominal, PreparedBoards::Known());
     EXPECT_EQ(shaken.rig.cameras().left, rig.cameras().left);
     EXPECT_EQ(shaken.rig.cameras().right, rig.cameras().right);
     EXPECT_EQ(shaken.rig.X_BL().translation(), rig.X_BL().translation());
@@ -164,10 +162,10 @@ TEST(CalibrationChoiceTest, AShakenRigIsToldWhatItWasBefore) {
   const CalibratedRig before = Calibrated(rig, boards, RandomStream(3), cache);
   // The shake leaves the boards' random numbers alone, so the second finds the first one's file.
   const CalibratedRig after = Calibrated(rig, stale, RandomStream(3), cache);
-  EXPECT_EQ(before.told, after.told);
+  EXPECT_EQ(before.nominal, after.nominal);
   EXPECT_EQ(before.rig.cameras(), rig.cameras());
   EXPECT_NE(after.rig.cameras().X_RL, rig.cameras().X_RL);
-  EXPECT_EQ(Calibrated(rig, boards, RandomStream(3), {}).told, before.told);
+  EXPECT_EQ(Calibrated(rig, boards, RandomStream(3), {}).nominal, before.nominal);
 }
 
 TEST(CalibrationChoiceTest, BoardsArePhotographedWithNoiseEvenWhereTrialsAreNot) {
@@ -177,7 +175,7 @@ TEST(CalibrationChoiceTest, BoardsArePhotographedWithNoiseEvenWhereTrialsAreNot)
   options.sensor.fixed_pattern = false;
   const StereoRig noiseless(options, RandomStream(1));
   const CalibrationChoice boards{.source = CalibrationSource::kBoards, .boards = 5};
-  EXPECT_EQ(Told(noisy, boards, 3), Told(noiseless, boards, 3));
+  EXPECT_EQ(Nominal(noisy, boards, 3), Nominal(noiseless, boards, 3));
 }
 
 }  // namespace

@@ -30,9 +30,9 @@ std::vector<double> NormalisedSquares() {
   const Study study = ReadStudy(YamlReader::FromText(text, "covariance.yaml"), Detectors());
   std::vector<double> squares;
   for (const Cell& cell : Cells(study)) {
-    const CellBench bench(study, cell);
+    const CellRunner runner(study, cell);
     for (int trial = 0; trial < cell.repetitions; ++trial) {
-      const Score score = bench.Try(0, bench.Simulate(trial), false).record.score;
+      const Score score = runner.Try(0, runner.Simulate(trial), false).record.score;
       const auto error = score.CentroidError_C();
       EXPECT_TRUE(error && score.estimate->covariance_C) << score.detail;
       if (!error || !score.estimate->covariance_C) continue;

@@ -46,10 +46,10 @@ std::vector<Error> ErrorsOf(const std::string& sensor) {
   const Study study = ReadStudy(YamlReader::FromText(text, "ideal.yaml"), Detectors());
   std::vector<Error> errors;
   for (const Cell& cell : Cells(study)) {
-    const CellBench bench(study, cell);
+    const CellRunner runner(study, cell);
     for (int trial = 0; trial < cell.repetitions; ++trial) {
-      const SimulatedTrial simulated = bench.Simulate(trial);
-      const Score score = bench.Try(0, simulated, false).record.score;
+      const SimulatedTrial simulated = runner.Simulate(trial);
+      const Score score = runner.Try(0, simulated, false).record.score;
       EXPECT_EQ(score.outcome, Outcome::kHit) << score.detail;
       if (const auto error = score.CentroidError_C()) {
         errors.push_back({simulated.trial.settings.viewpoint.distance_m, *error});

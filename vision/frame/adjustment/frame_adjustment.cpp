@@ -25,25 +25,21 @@ bool HasInner(const Points& points) {
   return false;
 }
 
-std::vector<int> FittedParameters(const Points& points, const FrameKnowledge& knowledge) {
+std::vector<int> FittedParameters(const Points& points, const FramePrior& prior) {
   std::vector<int> fitted = {0, 1, 2, 3, 4, 5, 6, 7};
   const bool inner = HasInner(points);
   if (inner) fitted.push_back(8);
-  if (knowledge.outer_relief) fitted.insert(fitted.end(), {9, 10, 11, 12});
-  if (inner && knowledge.inner_relief) fitted.push_back(13);
+  if (prior.outer_relief) fitted.insert(fitted.end(), {9, 10, 11, 12});
+  if (inner && prior.inner_relief) fitted.push_back(13);
   return fitted;
 }
 
 class Adjustment {
  public:
-  Adjustment(std::span<const CameraView> views, const Points& points,
-             const FrameKnowledge& knowledge)
-      : views_(views),
-        points_(points),
-        knowledge_(knowledge),
-        fitted_(FittedParameters(points, knowledge)) {}
+  Adjustment(std::span<const CameraView> views, const Points& points, const FramePrior& prior)
+      : views_(views), points_(points), prior_(prior), fitted_(FittedParameters(points, prior)) {}
 
-  // False if the points cannot be seen from there.
+  // Returns false if points cannot be projected.
   bool Start(const FrameRectangle& frame) {
     frame_ = frame;
     auto residuals = EdgeResiduals(views_, points_, frame);
@@ -96,7 +92,7 @@ class Adjustment {
     const auto parameters = static_cast<double>(fitted_.size());
     if (count <= 1.5 * parameters) return std::nullopt;
     result.scale = std::sqrt(squares / (count - parameters));
-    // Edges may be off by more than their noise; measured planes are not, because of that.
+    // Edges may be off by more than their noise; this does not apply to measured planes.
     const double excess = std::max(1.0, result.scale * result.scale);
     const Eigen::MatrixXd information = Equations(excess).matrix(fitted_, fitted_);
     const Eigen::LDLT<Eigen::MatrixXd> decomposition(information);
@@ -113,15 +109,15 @@ class Adjustment {
  private:
   NormalEquations Equations(double plane_weight) const {
     NormalEquations equations = LineariseEdges(views_, points_, frame_, loss_);
-    AddKnowledge(frame_, knowledge_, plane_weight, equations);
+    AddPrior(frame_, prior_, plane_weight, equations);
     return equations;
   }
 
   double LossOf(const FrameRectangle& frame, const std::vector<double>& residuals) const {
-    return loss_.Of(residuals) + LossOfKnowledge(frame, knowledge_, loss_.scale * loss_.scale);
+    return loss_.Of(residuals) + LossOfPrior(frame, prior_, loss_.scale * loss_.scale);
   }
 
-  // Of the fitted parameters; the others stay.
+  // Covariance of the fitted parameters; the others remain zero.
   Vector Solve(const NormalEquations& equations, double damping) const {
     Eigen::MatrixXd matrix = equations.matrix(fitted_, fitted_);
     matrix.diagonal() *= 1.0 + damping;
@@ -134,7 +130,7 @@ class Adjustment {
 
   std::span<const CameraView> views_;
   const Points& points_;
-  FrameKnowledge knowledge_;
+  FramePrior prior_;
   std::vector<int> fitted_;
   FrameRectangle frame_;
   std::vector<double> residuals_;
@@ -144,12 +140,11 @@ class Adjustment {
 }  // namespace
 
 std::optional<FrameAdjustment> AdjustFrame(std::span<const CameraView> views, const Points& points,
-                                           const FrameRectangle& start,
-                                           const FrameKnowledge& knowledge) {
+                                           const FrameRectangle& start, const FramePrior& prior) {
   size_t count = 0;
   for (const std::vector<EdgePoint>& view : points) count += view.size();
   if (count < kFewestPoints) return std::nullopt;
-  Adjustment adjustment(views, points, knowledge);
+  Adjustment adjustment(views, points, prior);
   if (!adjustment.Start(start)) return std::nullopt;
   if (!adjustment.Minimise(false) || !adjustment.Minimise(true)) return std::nullopt;
   return adjustment.Result();

@@ -41,7 +41,6 @@ struct FrameAdjustment {
 /// rectangle.
 std::optional<FrameAdjustment> AdjustFrame(std::span<const CameraView> views,
                                            const std::vector<std::vector<EdgePoint>>& points,
-                                           const FrameRectangle& start,
-                                           const FrameKnowledge& knowledge);
+                                           const FrameRectangle& start, const FramePrior& prior);
 
 }  // namespace fenestra

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 constexpr size_t kMostSegments = 256;
 constexpr double kCornerReach_px = 6.0;
 constexpr double kCornerShare = 0.25;
-constexpr double kLeastSine = 0.4;  // Of the angle at a corner: 24°.
+constexpr double kLeastSine = 0.4;  // Least sine of a corner's angle: 24°.
 
 using SegmentSet = std::bitset<kMostSegments>;
 
@@ -22,14 +22,14 @@ double Reach(const EdgeSegment& s) {
   return std::max(kCornerReach_px, kCornerShare * s.Length());
 }
 
-// How far a point is beyond the ends of a segment of its line.
+// Distance of a point on a segment's line beyond the ends of the segment.
 double Beyond(const EdgeSegment& s, const Vector2d& point) {
   const Vector2d along = (s.to - s.from).normalized();
   return std::max(along.dot(s.from - point), along.dot(point - s.to));
 }
 
-// Whether an upright side ends where it meets a level one. The level one may go on: joints and
-// lintels do so in line with the frame.
+// Tells whether a vertical side ends where it meets a horizontal one. The horizontal one may
+// continue, as joints and lintels in line with the frame do.
 bool MakeCorner(const EdgeSegment& upright, const Vector2d& end, const EdgeSegment& level) {
   const Vector2d p = (upright.to - upright.from).normalized();
   const Vector2d q = (level.to - level.from).normalized();
@@ -38,7 +38,7 @@ bool MakeCorner(const EdgeSegment& upright, const Vector2d& end, const EdgeSegme
   return (corner - end).norm() <= Reach(upright) && Beyond(level, corner) <= Reach(level);
 }
 
-// The level segments that each upright one meets at this end.
+// The horizontal segments that each vertical one meets at this end.
 std::vector<SegmentSet> Corners(const std::vector<EdgeSegment>& uprights,
                                 Vector2d EdgeSegment::*end,
                                 const std::vector<EdgeSegment>& levels) {

@@ -12,10 +12,11 @@ using Eigen::Vector2d;
 
 constexpr int kPlaces = 16;
 constexpr double kExceptions = 0.125;
-constexpr double kCornerShare = 0.06;  // Left out at each end, where other sides begin.
+constexpr double kNearCornerShare =
+    0.06;  // Left out at each end, where the neighbouring sides begin.
 const double kFullContrast = std::log(4.0);
 
-// -1 outside the image.
+// Returns -1 outside the image.
 double Grey(const cv::Mat1b& image, const Vector2d& p) {
   const int u = static_cast<int>(std::lround(p.x()));
   const int v = static_cast<int>(std::lround(p.y()));
@@ -23,7 +24,7 @@ double Grey(const cv::Mat1b& image, const Vector2d& p) {
   return image(v, u);
 }
 
-// Mean grey values on either side of an edge, without the black level; nullopt outside the image.
+// Mean grey values above the black level on either side of an edge; nullopt outside the image.
 struct GreyPair {
   double dark;
   double bright;
@@ -41,14 +42,14 @@ std::optional<GreyPair> GreysAt(const cv::Mat1b& image, const Vector2d& p, const
                   0.5 * (bright_a + bright_b) - settings.black_dn};
 }
 
-// Calls `use` with the greys at each place along a line.
+// Calls `use` with the grey values at each place along a line.
 template <typename Use>
 void AlongLine(const cv::Mat1b& image, const Vector2d& from, const Vector2d& to,
                const DarknessSettings& settings, Use use) {
   const Vector2d along = to - from;
   const Vector2d right = Vector2d(-along.y(), along.x()).normalized();
   for (int i = 0; i < kPlaces; ++i) {
-    const double share = kCornerShare + (1.0 - 2.0 * kCornerShare) * (i + 0.5) / kPlaces;
+    const double share = kNearCornerShare + (1.0 - 2.0 * kNearCornerShare) * (i + 0.5) / kPlaces;
     if (const auto greys = GreysAt(image, from + share * along, right, settings)) use(*greys);
   }
 }

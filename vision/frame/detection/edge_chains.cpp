@@ -11,14 +11,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSobelOfStep = 3.0;  // Of a step of 1 DN that a good lens has blurred.
-// An edge of darkness 1 (4 : 1) rises by 1.2 times the grey value in its middle, weaker ones by
-// about their share of that. Half of it is asked for, as blur takes some.
+constexpr double kSobelOfStep = 3.0;  // Response to a step of 1 DN blurred by a good lens.
+// An edge of darkness 1 (4 : 1) rises by 1.2 times the grey value in its middle, weaker ones
+// roughly in proportion. Half of that is required, since blur reduces it.
 constexpr double kLeastContrast = 0.6;
 constexpr double kBend_px = 0.8;
-constexpr double kFollow_px = 1.6;  // From row to row; more than an edge at 45° moves.
+constexpr double kFollow_px = 1.6;  // Largest step between rows; more than that of an edge at 45°.
 constexpr int kMissingRows = 2;
-constexpr double kObliqueness = 0.7;  // tan 35°: neighbouring kinds overlap by 20°.
+constexpr double kObliqueness =
+    0.7;  // tan 35°: the directions of neighbouring sides overlap by 20°.
 
 struct ChainPoint {
   double u;
@@ -26,7 +27,7 @@ struct ChainPoint {
 };
 using Chain = std::vector<ChainPoint>;
 
-// Follows upright edges down the rows.
+// Follows vertical edges down the rows.
 class ChainTracker {
  public:
   ChainTracker(int width, const EdgeSegmentSettings& settings)
@@ -36,7 +37,8 @@ class ChainTracker {
         chain_at_{std::vector<int>(width, -1), std::vector<int>(width, -1)} {}
 
   void AddRow(int v, const uchar* grey, const short* across, const short* along, int width) {
-    // Every pixel passes here: whole numbers, and what most pixels fail by first.
+    // This loop sees every pixel, so it uses integers and begins with the test that most pixels
+    // fail.
     const int threshold = static_cast<int>(std::ceil(threshold_));
     for (int u = 1; u + 1 < width; ++u) {
       const int strength = std::abs(across[u]);
@@ -52,7 +54,7 @@ class ChainTracker {
     }
   }
 
-  // [0]: dark to the right of the edge; [1]: dark to its left.
+  // Index 0 is for edges that are dark on their right, 1 for those that are dark on their left.
   const std::vector<Chain>& chains(bool dark_right) const { return chains_[dark_right ? 0 : 1]; }
 
  private:
@@ -86,7 +88,8 @@ class ChainTracker {
   std::array<std::vector<Chain>, 2> chains_;
 };
 
-// The line u = a + b v through the points [first, last], from the first row to the last.
+// Fits the line u = a + b v to the points [first, last] and returns its part from the first row to
+// the last.
 EdgeSegment FitLine(const Chain& chain, size_t first, size_t last) {
   double n = 0.0, sum_v = 0.0, sum_u = 0.0;
   for (size_t i = first; i <= last; ++i) {
@@ -106,7 +109,7 @@ EdgeSegment FitLine(const Chain& chain, size_t first, size_t last) {
   return {at(chain[first].v), at(chain[last].v), 0.0};
 }
 
-// Of a chord's ends noise can make a bend that the line through all points has not.
+// Noise at the ends of a chord can feign a bend that the line through all points does not have.
 bool IsStraight(const Chain& chain, size_t first, size_t last, const EdgeSegment& line) {
   const Vector2d side = line.to - line.from;
   const double largest = kBend_px * side.norm();
@@ -140,8 +143,8 @@ void Split(const Chain& chain, size_t first, size_t last, double min_length_px,
   Split(chain, worst, last, min_length_px, out);
 }
 
-// Upright edges of an image with these derivatives, downwards: first dark to the right, then to the
-// left.
+// Returns the vertical edges of an image with these derivatives, directed downwards: first those
+// that are dark on the right, then those that are dark on the left.
 std::array<std::vector<EdgeSegment>, 2> UprightSegments(const cv::Mat1b& image,
                                                         const cv::Mat1s& across,
                                                         const cv::Mat1s& along,

@@ -14,9 +14,11 @@ using Eigen::Vector2d;
 
 constexpr double kCollinear_px = 1.2;
 constexpr double kParallel = 0.06;
-// Of the less clear part; where it is less, the gap shows something else.
+// Least darkness of a joined segment relative to its less clear part; below that, the gap shows
+// something else.
 constexpr double kJoinedDarkness = 0.6;
-// Ends of what is one edge at both scales; along it, corners round off.
+// Largest distance between the ends of one edge found at both scales; along the edge, blur rounds
+// off its corners.
 constexpr double kSameAcross_px = 1.5;
 constexpr double kSameAlong_px = 4.0;
 
@@ -34,7 +36,7 @@ void KeepBest(size_t most, std::vector<EdgeSegment>& segments) {
 bool Continues(const EdgeSegment& a, const EdgeSegment& b) {
   const Vector2d between = b.from - a.to;
   const Vector2d side = a.to - a.from;
-  // Most pairs fail here, at the price of no root.
+  // This test without a square root rejects most pairs.
   if (std::pow(Cross(side, between), 2) >
       0.01 * side.squaredNorm() * between.squaredNorm() + 4.0 * side.squaredNorm()) {
     return false;
@@ -64,8 +66,8 @@ std::vector<EdgeSegment> Joined(const cv::Mat1b& image, const std::vector<EdgeSe
   return joined;
 }
 
-// Edges of a picture of half the size, in pixels of the whole one, whose pixel u covers the half
-// one's 0.5 u - 0.25.
+// Returns the edges of an image of half the size in pixels of the original, whose pixel u lies at
+// 0.5 u - 0.25 in the smaller image.
 EdgeSegments FollowCoarseEdges(const cv::Mat1b& image, const EdgeSegmentSettings& settings) {
   const cv::Size size(image.cols / 2, image.rows / 2);
   if (size.empty()) return {};
@@ -79,7 +81,7 @@ EdgeSegments FollowCoarseEdges(const cv::Mat1b& image, const EdgeSegmentSettings
   return all;
 }
 
-// Rates them and keeps the clear ones, the best first.
+// Rates the segments and keeps the clear ones, the best first.
 void KeepClear(const cv::Mat1b& image, const EdgeSegmentSettings& settings, size_t most,
                std::vector<EdgeSegment>& segments) {
   for (EdgeSegment& s : segments) {

@@ -8,14 +8,15 @@ namespace fenestra {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
 
-constexpr double kSmallestTolerance = 0.01;  // Of the perimeter.
+constexpr double kSmallestTolerance = 0.01;  // Share of the perimeter.
 constexpr double kLargestTolerance = 0.10;
-constexpr double kEndShare = 0.12;  // Of a side, left out at each end of a line fit.
+constexpr double kEndShare = 0.12;  // Share of a side that is left out at each end of a line fit.
 
 struct Line {
   Vector2d point;
-  Vector2d direction;  // Unit.
+  Vector2d direction;  // Unit vector.
 };
 
 Vector2d ToEigen(const cv::Point& p) {
@@ -44,7 +45,7 @@ std::optional<Quadrilateral> FromSides(const std::array<Line, 4>& sides) {
 
 std::optional<Quadrilateral> FourCorners(const std::vector<cv::Point>& contour) {
   std::vector<cv::Point> hull;
-  // OpenCV speaks of a y axis that points up, so its "counter-clockwise" is clockwise as seen.
+  // OpenCV assumes a y axis that points up, so its "counter-clockwise" is clockwise as seen.
   cv::convexHull(contour, hull, false);
   const double perimeter = cv::arcLength(hull, true);
   std::vector<cv::Point> polygon;
@@ -63,7 +64,7 @@ std::optional<Quadrilateral> FourCorners(const std::vector<cv::Point>& contour) 
   return q;
 }
 
-// The contour's points beside the side from p to q, or the side itself where there are too few.
+// Returns the contour's points near the side from p to q, or the side itself if there are too few.
 Line FitSide(const std::vector<cv::Point>& contour, const Vector2d& p, const Vector2d& q) {
   const double length = (q - p).norm();
   const Vector2d along = (q - p) / length;
@@ -80,6 +81,10 @@ Line FitSide(const std::vector<cv::Point>& contour, const Vector2d& p, const Vec
   cv::fitLine(near, fit, cv::DIST_HUBER, 0.0, 0.01, 0.01);
   const Vector2d direction(fit[0], fit[1]);
   return {Vector2d(fit[2], fit[3]), direction.dot(along) < 0.0 ? -direction : direction};
+}
+
+double RelativeDifference(double a, double b) {
+  return std::abs(a - b) / (0.5 * (a + b));
 }
 
 }  // namespace
@@ -116,7 +121,7 @@ std::optional<Quadrilateral> Inset(const Quadrilateral& quadrilateral, double ha
     sides[i] = {quadrilateral[i] + reach_px * inwards, along};
   }
   const auto inset = FromSides(sides);
-  // Past its own centre a quadrilateral turns inside out, yet stays convex.
+  // Beyond its centre a quadrilateral turns inside out but remains convex.
   for (size_t i = 0; inset && i < 4; ++i) {
     const Vector2d side = quadrilateral[(i + 1) % 4] - quadrilateral[i];
     if (side.dot((*inset)[(i + 1) % 4] - (*inset)[i]) <= 0.0) return std::nullopt;
@@ -130,6 +135,22 @@ double Area(const Quadrilateral& q) {
 
 Vector2d At(const Quadrilateral& q, double s, double t) {
   return (1.0 - t) * ((1.0 - s) * q[0] + s * q[1]) + t * ((1.0 - s) * q[3] + s * q[2]);
+}
+
+WindowShape MeasureShape(const std::array<Vector3d, 4>& p_CV) {
+  std::array<Vector3d, 4> side;
+  for (size_t i = 0; i < 4; ++i) side[i] = p_CV[(i + 1) % 4] - p_CV[i];
+  WindowShape shape;
+  shape.width_m = 0.5 * (side[0].norm() + side[2].norm());
+  shape.height_m = 0.5 * (side[1].norm() + side[3].norm());
+  shape.taper = std::max(RelativeDifference(side[0].norm(), side[2].norm()),
+                         RelativeDifference(side[1].norm(), side[3].norm()));
+  for (size_t i = 0; i < 4; ++i) {
+    const Vector3d& next = side[(i + 1) % 4];
+    const double sine = std::abs(side[i].normalized().dot(next.normalized()));
+    shape.skew_rad = std::max(shape.skew_rad, std::asin(std::min(1.0, sine)));
+  }
+  return shape;
 }
 
 }  // namespace fenestra

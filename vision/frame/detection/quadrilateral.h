@@ -39,4 +39,17 @@ double Area(const Quadrilateral& quadrilateral);
 /// the bottom right one.
 Eigen::Vector2d At(const Quadrilateral& quadrilateral, double s, double t);
 
+/// How nearly four corners form a rectangle.
+struct WindowShape {
+  double width_m = 0.0;   ///< Mean of the upper and the lower side.
+  double height_m = 0.0;  ///< Mean of the left and the right side.
+  /// Largest departure of a corner from a right angle [rad].
+  double skew_rad = 0.0;
+  /// Largest relative difference of opposite sides.
+  double taper = 0.0;
+};
+
+/// Measures the shape of four corners, given in the order of WindowEstimate.
+WindowShape MeasureShape(const std::array<Eigen::Vector3d, 4>& p_CV);
+
 }  // namespace fenestra

@@ -10,10 +10,10 @@
 namespace fenestra {
 namespace {
 
-// What the model of lens and light is worth, for a whole side: what blur that varies across an edge
-// and pixels that are no perfect squares leave, where noise does not hide it.
+// Error of the models of lens and light for a whole side, visible where there is little noise: blur
+// that varies across an edge, and pixels that are not perfect squares.
 constexpr double kModelSigma_px = 0.0004;
-// Residuals of more than this many times the side's median variance are of something else.
+// Strips whose mean square exceeds this multiple of the side's median show something else.
 constexpr double kMostExcess = 9.0;
 constexpr double kOwnExcess = 2.0;
 
@@ -25,7 +25,7 @@ double MedianSquare(const std::vector<StepFit>& fits) {
   return *middle;
 }
 
-// Relative change of the light across an edge, outwards [1/px].
+// Relative change of the light across an edge by vignetting, outwards [1/px].
 double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetting& vignetting) {
   const CameraParameters& p = camera.parameters();
   const Eigen::Vector2d focal_px(p.fx_px, p.fy_px);
@@ -35,8 +35,8 @@ double Falloff(const CameraModel& camera, const EdgeStrip& strip, const Vignetti
          (1.0 + tangent.squaredNorm());
 }
 
-// What lens and light are like in the middle of a side: of two strips where their number is even,
-// so that it does not matter which end they are counted from.
+// Normal and vignetting in the middle of a side: the mean of two strips if their number is even, so
+// that the result does not depend on the end from which strips are counted.
 struct Middle {
   Eigen::Vector2d normal;
   double falloff;
@@ -49,7 +49,7 @@ Middle MiddleOf(const CameraModel& camera, const std::vector<EdgeStrip>& strips,
           .falloff = 0.5 * (Falloff(camera, a, vignetting) + Falloff(camera, b, vignetting))};
 }
 
-// Strips with an edge, and their edges.
+// Strips with an edge, and the fits of their edges.
 struct Fitted {
   std::vector<EdgeStrip> strips;
   std::vector<StepFit> fits;
@@ -79,23 +79,23 @@ Fitted FitAll(const StepModel& model, std::vector<EdgeStrip> strips) {
 }  // namespace
 
 SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const SideRequest& asked,
-                      const EdgeTuning& tuning) {
+                      const EdgeNuisance& nuisance) {
   SideRequest request = asked;
-  if (!tuning.is_even) request.far_px = request.reach_px;
+  if (!nuisance.is_even) request.far_px = request.reach_px;
   SideEdges edges;
-  edges.tuning = tuning;
+  edges.nuisance = nuisance;
   EdgeStrips cut = CutStrips(view, frame, request);
   edges.places = cut.places;
   if (cut.strips.empty()) return edges;
   const Middle middle = MiddleOf(view.camera, cut.strips, request.vignetting);
-  const StepModel model(request, tuning, middle.normal);
+  const StepModel model(request, nuisance, middle.normal);
   const Fitted fitted = FitAll(model, std::move(cut.strips));
   if (fitted.fits.empty()) return edges;
-  const Learnt learnt =
-      Learn(model, fitted.strips, fitted.fits,
-            {.excess = fitted.median_square, .falloff = middle.falloff}, request, tuning);
-  if (!learnt.tuning.is_even && request.far_px > request.reach_px) {
-    EdgeTuning uneven = tuning;
+  const NuisanceEstimate estimate = EstimateNuisance(
+      model, fitted.strips, fitted.fits,
+      {.excess = fitted.median_square, .falloff = middle.falloff}, request, nuisance);
+  if (!estimate.nuisance.is_even && request.far_px > request.reach_px) {
+    EdgeNuisance uneven = nuisance;
     uneven.is_even = false;
     return MeasureSide(view, frame, request, uneven);
   }
@@ -104,15 +104,16 @@ SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const
     const EdgeStrip& strip = fitted.strips[i];
     const double scale = fit.mean_square > kOwnExcess * fitted.median_square ? fit.mean_square
                                                                              : fitted.median_square;
-    edges.points.push_back({.side = request.side,
-                            .border = request.border,
-                            .share = strip.share,
-                            .normal = strip.normal,
-                            .pixel = strip.pixel + fit.s0_px * strip.normal,
-                            .sigma_px = std::sqrt(scale * fit.s0_variance),
-                            .common_sigma_px = std::hypot(learnt.common_sigma_px, kModelSigma_px)});
+    edges.points.push_back(
+        {.side = request.side,
+         .border = request.border,
+         .share = strip.share,
+         .normal = strip.normal,
+         .pixel = strip.pixel + fit.s0_px * strip.normal,
+         .sigma_px = std::sqrt(scale * fit.s0_variance),
+         .common_sigma_px = std::hypot(estimate.common_sigma_px, kModelSigma_px)});
   }
-  edges.tuning = learnt.tuning;
+  edges.nuisance = estimate.nuisance;
   return edges;
 }
 

@@ -15,6 +15,6 @@ namespace fenestra {
 /// Pixels far from the edge are included because in a few pixels near it, a gradient of the light
 /// is hardly distinguishable from a shift of the edge.
 SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame,
-                      const SideRequest& request, const EdgeTuning& tuning);
+                      const SideRequest& request, const EdgeNuisance& nuisance);
 
 }  // namespace fenestra

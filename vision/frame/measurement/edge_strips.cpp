@@ -13,7 +13,8 @@ constexpr int kFewest = 3;
 constexpr int kMost = 40;
 constexpr int kFewestCoarse = 30;
 
-// Upright box around a strip from `inside_px` on one side of the edge to `outside_px` on the other.
+// Axis-aligned box around a strip that reaches from `inside_px` on one side of the edge to
+// `outside_px` on the other.
 cv::Rect BoxOf(const EdgeStrip& strip, double half_length_px, double inside_px, double outside_px) {
   const Vector2d middle = strip.pixel + 0.5 * (outside_px - inside_px) * strip.normal;
   const Vector2d along(-strip.normal.y(), strip.normal.x());
@@ -26,7 +27,7 @@ cv::Rect BoxOf(const EdgeStrip& strip, double half_length_px, double inside_px, 
   return {first, end};
 }
 
-// Empty if one of the near pixels is outside the image.
+// Returns no pixels if one of those near the edge is outside the image.
 std::vector<StripPixel> Gather(const cv::Mat1b& image, const EdgeStrip& strip,
                                double half_length_px, const SideRequest& request) {
   std::vector<StripPixel> pixels;

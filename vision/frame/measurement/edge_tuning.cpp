@@ -11,29 +11,30 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Shared = BySharedTuning;
-using SharedMatrix = Eigen::Matrix<double, EdgeTuning::kShared, EdgeTuning::kShared>;
+using Shared = BySharedNuisance;
+using SharedMatrix = Eigen::Matrix<double, EdgeNuisance::kShared, EdgeNuisance::kShared>;
 
-constexpr double kLeastVariance = 1.0 / 12.0;  // Of a grey value that is rounded.
-constexpr double kLeastExcess = 1e-3;          // Pictures without noise.
+constexpr double kLeastVariance = 1.0 / 12.0;  // Variance of rounding to whole grey values.
+constexpr double kLeastExcess = 1e-3;          // Avoids zero for images without noise.
 constexpr double kSmallestBlur_px = 0.25;
 constexpr double kLargestBlur_px = 1.5;
 constexpr double kLargestSlope = 0.05;
 constexpr double kLargestBlurChange_px = 0.15;
-// What lenses and walls are like where an edge does not tell: standard deviations of a priori laws.
+// Standard deviations of the prior of lenses and walls, which matter where an edge does not
+// determine the parameters.
 constexpr double kBlurSigma_px = 0.2;
 constexpr double kBlurChangeSigma_px = 0.03;
-// Of the light's change per pixel: lenses' barrels and uneven light leave as much of vignetting.
+// Uncertainty of the vignetting's slope, because of lens barrels and uneven light.
 constexpr double kFalloffSigma = 0.0002;
-constexpr double kLeastSlopeSigma = 0.0001;  // Stray light, as a share of the step.
-constexpr double kTail = 0.5;                // Of a slope's departure from what is expected.
-// Where farther pixels' residuals are larger by this factor something else begins.
+constexpr double kLeastSlopeSigma = 0.0001;  // Effect of stray light, as a share of the step.
+constexpr double kTail = 0.5;                // Least sigma of a slope, as a share of its departure.
+// If the residuals of farther pixels are larger by this factor, something else begins there.
 constexpr double kUneven = 1.3;
 
 // Weighted mean of the strips' steps.
 class MeanRise {
  public:
-  // own: inverse of the information on a strip's unknowns.
+  // `own` is the inverse of the information on a strip's unknowns.
   void Add(const StepFit& fit, const Matrix3d& own, double excess) {
     const double variance = excess * own(1, 1) + std::pow(kRiseSpread * fit.rise_dn, 2);
     sum_ += fit.rise_dn / variance;
@@ -42,7 +43,7 @@ class MeanRise {
     ++count_;
   }
   double Value() const { return sum_ / weight_; }
-  // Of the mean edge, because of what is not known of the mean step.
+  // Variance of the mean edge because of the uncertainty of the mean step.
   double EdgeVariance() const { return std::pow(edge_by_rise_ / count_, 2) / weight_; }
 
  private:
@@ -60,12 +61,12 @@ class SideVariances {
     squares_[value.p > 0.5 ? 1 : 0] += residual * residual;
     counts_[value.p > 0.5 ? 1 : 0] += 1.0;
   }
-  void Put(Brighter brighter, EdgeTuning& tuning) const {
+  void Put(Brighter brighter, EdgeNuisance& nuisance) const {
     if (std::min(counts_[0], counts_[1]) < 20.0) return;
     const double inside = std::max(kLeastVariance, squares_[0] / counts_[0]);
     const double outside = std::max(kLeastVariance, squares_[1] / counts_[1]);
-    tuning.dark_variance = brighter == Brighter::kOutside ? inside : outside;
-    tuning.bright_variance = brighter == Brighter::kOutside ? outside : inside;
+    nuisance.dark_variance = brighter == Brighter::kOutside ? inside : outside;
+    nuisance.bright_variance = brighter == Brighter::kOutside ? outside : inside;
   }
 
  private:
@@ -90,9 +91,9 @@ class Evenness {
   std::array<double, 2> counts_ = {};
 };
 
-// What blur and slopes are before the side is seen.
+// Prior of blur and slopes.
 struct Expected {
-  Shared mean = EdgeTuning{}.shared;
+  Shared mean = EdgeNuisance{}.shared;
   Shared sigma;
 };
 
@@ -114,7 +115,7 @@ Expected ExpectedOf(const std::vector<StepFit>& fits, double falloff, double bla
   return expected;
 }
 
-// Blur and slopes, with the strips' own unknowns eliminated.
+// Normal equations of blur and slopes, with the strips' own unknowns eliminated.
 class SharedEquations {
  public:
   SharedEquations(const StepModel& model, const Shared& now, const Expected& expected)
@@ -148,7 +149,7 @@ class SharedEquations {
     }
     const SharedByShape shared = StepModel::LineariseShared(fit, strip.share);
     const Matrix3d inverse = own.inverse();
-    const Eigen::Matrix<double, 3, EdgeTuning::kShared> own_by_shared =
+    const Eigen::Matrix<double, 3, EdgeNuisance::kShared> own_by_shared =
         inverse * mixed * shared.transpose();
     information_ +=
         shared * (shape - mixed.transpose() * inverse * mixed) * shared.transpose() / excess;
@@ -158,7 +159,7 @@ class SharedEquations {
     return inverse;
   }
   Shared Step() const { return information_.ldlt().solve(gradient_); }
-  // Of the mean edge, because of what is not known of blur and slopes.
+  // Variance of the mean edge because of the uncertainty of blur and slopes.
   double EdgeVariance() const {
     const Shared mean = edge_by_shared_ / count_;
     return mean.dot(information_.ldlt().solve(mean));
@@ -174,11 +175,11 @@ class SharedEquations {
 
 }  // namespace
 
-Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
-             const std::vector<StepFit>& fits, const SideFacts& facts, const SideRequest& request,
-             const EdgeTuning& tuning) {
+NuisanceEstimate EstimateNuisance(const StepModel& model, const std::vector<EdgeStrip>& strips,
+                                  const std::vector<StepFit>& fits, const SideFacts& facts,
+                                  const SideRequest& request, const EdgeNuisance& nuisance) {
   const double excess = std::max(facts.excess, kLeastExcess);
-  SharedEquations equations(model, tuning.shared,
+  SharedEquations equations(model, nuisance.shared,
                             ExpectedOf(fits, facts.falloff, request.vignetting.black_dn));
   SideVariances variances;
   Evenness evenness(request.reach_px);
@@ -188,21 +189,22 @@ Learnt Learn(const StepModel& model, const std::vector<EdgeStrip>& strips,
     rise.Add(fits[i], equations.Add(strips[i], fits[i], excess, variances, evenness), excess);
     full |= model.PriorInformation(strips[i])(1, 1) > 0.0;
   }
-  Learnt learnt{.tuning = tuning};
+  NuisanceEstimate estimate{.nuisance = nuisance};
   const Shared change = equations.Step();
   if (change.allFinite()) {
     const double c = kLargestBlurChange_px;
     const double b = kLargestSlope;
     const Shared least{kSmallestBlur_px, -c, -c, -b, -b};
     const Shared most{kLargestBlur_px, c, c, b, b};
-    learnt.tuning.shared += change.cwiseMax(-0.2).cwiseMin(0.2);
-    learnt.tuning.shared = learnt.tuning.shared.cwiseMax(least).cwiseMin(most);
+    estimate.nuisance.shared += change.cwiseMax(-0.2).cwiseMin(0.2);
+    estimate.nuisance.shared = estimate.nuisance.shared.cwiseMax(least).cwiseMin(most);
   }
-  variances.Put(request.brighter, learnt.tuning);
-  learnt.tuning.rise_dn = rise.Value();
-  learnt.tuning.is_even = tuning.is_even && evenness.Holds();
-  learnt.common_sigma_px = std::sqrt(equations.EdgeVariance() + (full ? rise.EdgeVariance() : 0.0));
-  return learnt;
+  variances.Put(request.brighter, estimate.nuisance);
+  estimate.nuisance.rise_dn = rise.Value();
+  estimate.nuisance.is_even = nuisance.is_even && evenness.Holds();
+  estimate.common_sigma_px =
+      std::sqrt(equations.EdgeVariance() + (full ? rise.EdgeVariance() : 0.0));
+  return estimate;
 }
 
 }  // namespace fenestra

@@ -8,10 +8,10 @@ namespace {
 
 constexpr int kPlaces = 16;
 constexpr double kBorderEndShare = 0.1;
-// From the outer edge, so that its blur is not taken for the border's end.
+// Distance from the outer edge, so that its blur is not taken for the end of the border.
 constexpr double kClear_px = 2.0;
 
-// The size of a pixel on the frame, where it is seen most obliquely; mean of the views.
+// Size of a pixel on the frame where it is seen most obliquely; the mean over the views.
 double PixelOn(std::span<const CameraView> views, const FrameRectangle& frame) {
   double sum_m = 0.0;
   for (const CameraView& view : views) {
@@ -24,7 +24,7 @@ double PixelOn(std::span<const CameraView> views, const FrameRectangle& frame) {
   return sum_m / static_cast<double>(views.size());
 }
 
-// Of the views that see it.
+// Mean over the views that see it.
 std::optional<double> MeanOfViews(std::span<const CameraView> views, const FrameRectangle& frame,
                                   Side side) {
   double sum = 0.0;

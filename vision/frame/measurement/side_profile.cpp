@@ -7,7 +7,8 @@ namespace fenestra {
 namespace {
 
 constexpr double kEndShare = 0.15;
-// A lens bends a line by less than a pixel: between these it is straight to hundredths of that.
+// A lens bends a line by less than a pixel; between these nodes it is straight to hundredths of a
+// pixel.
 constexpr int kPieces = 4;
 constexpr int kPlacesPerPiece = 16;
 constexpr double kRounding = 1.0 / 12.0;  // Variance of a rounded grey value.
@@ -22,7 +23,7 @@ double Bilinear(const cv::Mat1b& image, const Eigen::Vector2d& pixel) {
          b * ((1.0 - a) * image(v + 1, u) + a * image(v + 1, u + 1));
 }
 
-// Pixels of the middle of a side, moved inwards; empty if not all are seen.
+// Returns the pixels along the middle of a side moved inwards, or none if not all of them are seen.
 std::vector<Eigen::Vector2d> LineAt(const CameraView& view, FrameRectangle frame, Side side,
                                     double inset_m) {
   frame.border_m = inset_m;

@@ -33,7 +33,7 @@ struct EdgePoint {
 
 /// Nuisance parameters of the edge model for one side (see step_fit.h), estimated while the side is
 /// measured and used when it is measured next.
-struct EdgeTuning {
+struct EdgeNuisance {
   static constexpr int kShared = 5;
   /// Standard deviation of the lens blur in the middle of the side, its linear and quadratic change
   /// along the side [px], and the slopes of the grey values outside and inside as shares of the
@@ -79,7 +79,7 @@ struct SideRequest {
 struct SideEdges {
   std::vector<EdgePoint> points;
   int places = 0;  ///< Where an edge was looked for.
-  EdgeTuning tuning;
+  EdgeNuisance nuisance;
 };
 
 }  // namespace fenestra

@@ -3,12 +3,24 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fenestra {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+constexpr double kSigmas = 4.8;
+constexpr int kPerPixel = 32;
+
+struct Gaussian {
+  explicit Gaussian(double x)
+      : density(std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi)),
+        cumulative(0.5 * std::erfc(-x / std::numbers::sqrt2)) {}
+  double density;
+  double cumulative;
+};
 
 constexpr int kIterations = 8;
 constexpr double kFullScale_dn = 255.0;
@@ -27,9 +39,46 @@ double Sign(const SideRequest& request) {
 
 }  // namespace
 
-StepModel::StepModel(const SideRequest& request, const EdgeTuning& tuning,
+BlurredStep::BlurredStep(double sigma_px, const Eigen::Vector2d& normal) {
+  const double longer = std::max(std::abs(normal.x()), std::abs(normal.y()));
+  const double shorter = std::min(std::abs(normal.x()), std::abs(normal.y()));
+  const double h = 0.5 * longer;
+  const double sigma = std::sqrt(sigma_px * sigma_px + shorter * shorter / 12.0);
+  const double whole = std::sqrt(sigma_px * sigma_px + 1.0 / 12.0);
+  reach_px_ = std::ceil(kSigmas * std::max(sigma, whole) + h);
+  const int count = static_cast<int>(2.0 * reach_px_ * kPerPixel) + 2;
+  table_.reserve(count);
+  for (int i = 0; i < count; ++i) {
+    const double s = i / static_cast<double>(kPerPixel) - reach_px_;
+    const Gaussian after((s + h) / sigma);
+    const Gaussian before((s - h) / sigma);
+    const double grown = (s + h) * after.cumulative - (s - h) * before.cumulative +
+                         sigma * (after.density - before.density);
+    const Gaussian ramp(s / whole);
+    table_.push_back({.p = grown / longer,
+                      .by_s = (after.cumulative - before.cumulative) / longer,
+                      .by_sigma = (after.density - before.density) / longer * (sigma_px / sigma),
+                      .ramp = s * ramp.cumulative + whole * ramp.density});
+  }
+}
+
+BlurredStep::Value BlurredStep::At(double s_px) const {
+  if (s_px <= -reach_px_) return {.p = 0.0, .by_s = 0.0, .by_sigma = 0.0, .ramp = 0.0};
+  if (s_px >= reach_px_) return {.p = 1.0, .by_s = 0.0, .by_sigma = 0.0, .ramp = s_px};
+  const double place = (s_px + reach_px_) * kPerPixel;
+  const auto i = static_cast<size_t>(place);
+  const double share = place - static_cast<double>(i);
+  const Value& a = table_[i];
+  const Value& b = table_[i + 1];
+  return {.p = a.p + share * (b.p - a.p),
+          .by_s = a.by_s + share * (b.by_s - a.by_s),
+          .by_sigma = a.by_sigma + share * (b.by_sigma - a.by_sigma),
+          .ramp = a.ramp + share * (b.ramp - a.ramp)};
+}
+
+StepModel::StepModel(const SideRequest& request, const EdgeNuisance& nuisance,
                      const Eigen::Vector2d& normal)
-    : request_(request), tuning_(tuning), step_(tuning.blur_px(), normal) {}
+    : request_(request), nuisance_(nuisance), step_(nuisance.blur_px(), normal) {}
 
 StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixel) const {
   const double x = pixel.s_px - fit.s0_px;
@@ -37,15 +86,16 @@ StepValue StepModel::At(const StepFit& fit, double share, const StripPixel& pixe
   const double tau = Along(share);
   StepValue value;
   value.p = at.p;
-  value.by_shape = {at.by_sigma, at.ramp, x - at.ramp};  // As R(x) - R(-x) = x.
+  value.by_shape = {at.by_sigma, at.ramp, x - at.ramp};  // Since R(x) - R(-x) = x.
   const double shape =
-      at.p + (tuning_.blur_change_px() * tau + tuning_.blur_bend_px() * Bend(tau)) * at.by_sigma +
-      tuning_.slope_outside() * at.ramp + tuning_.slope_inside() * (x - at.ramp);
+      at.p +
+      (nuisance_.blur_change_px() * tau + nuisance_.blur_bend_px() * Bend(tau)) * at.by_sigma +
+      nuisance_.slope_outside() * at.ramp + nuisance_.slope_inside() * (x - at.ramp);
   value.grey_dn = fit.base_dn + fit.rise_dn * shape;
   value.by_own = {1.0, shape, -fit.rise_dn * at.by_s};
   const double bright_share = request_.brighter == Brighter::kOutside ? at.p : 1.0 - at.p;
-  value.weight = 1.0 / (tuning_.dark_variance +
-                        bright_share * (tuning_.bright_variance - tuning_.dark_variance));
+  value.weight = 1.0 / (nuisance_.dark_variance +
+                        bright_share * (nuisance_.bright_variance - nuisance_.dark_variance));
   value.counts = pixel.grey_dn < kFullScale_dn || value.grey_dn < kFullScale_dn;
   return value;
 }
@@ -79,10 +129,10 @@ std::optional<StepFit> StepModel::Start(const EdgeStrip& strip) const {
 
 Matrix3d StepModel::PriorInformation(const EdgeStrip& strip) const {
   Matrix3d information = Matrix3d::Zero();
-  if (tuning_.rise_dn == 0.0) return information;
+  if (nuisance_.rise_dn == 0.0) return information;
   const bool full = std::any_of(strip.pixels.begin(), strip.pixels.end(),
                                 [](const StripPixel& p) { return p.grey_dn >= kFullScale_dn; });
-  if (full) information(1, 1) = 1.0 / std::pow(kRiseSpread * tuning_.rise_dn, 2);
+  if (full) information(1, 1) = 1.0 / std::pow(kRiseSpread * nuisance_.rise_dn, 2);
   return information;
 }
 
@@ -93,7 +143,7 @@ std::optional<StepFit> StepModel::Fit(const EdgeStrip& strip) const {
   const Matrix3d prior = PriorInformation(strip);
   for (int i = 0; i < kIterations; ++i) {
     Matrix3d normal = prior;
-    Vector3d gradient = prior * Vector3d(0.0, tuning_.rise_dn - fit->rise_dn, 0.0);
+    Vector3d gradient = prior * Vector3d(0.0, nuisance_.rise_dn - fit->rise_dn, 0.0);
     double square = 0.0;
     int count = 0;
     for (const StripPixel& pixel : strip.pixels) {

@@ -1,11 +1,43 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <vector>
 
-#include "vision/frame/measurement/blurred_step.h"
 #include "vision/frame/measurement/edge_strips.h"
 
 namespace fenestra {
+
+/// The edge between two uniform areas as pixels see it: a step, blurred by a Gaussian and
+/// integrated over square pixels. With s [px] the pixel's distance from the edge along its unit
+/// normal n,
+///
+///     P(s) = (F(s + h) - F(s - h)) / 2h,   F(s) = s Φ(s/σ') + σ' φ(s/σ'),
+///     h = max(|n_u|, |n_v|) / 2,           σ'² = σ² + min(|n_u|, |n_v|)² / 12:
+///
+/// The pixel's longer extent across the edge is integrated; the shorter one enters by its variance,
+/// which is exact for edges along rows and columns. P goes from 0 to 1.
+///
+/// The ramp of the edge grows with s on the outer side only: R(s) = s Φ(s/σ") + σ" φ(s/σ"), σ"² =
+/// σ² + 1/12.
+class BlurredStep {
+ public:
+  /// Domain: sigma_px > 0.
+  BlurredStep(double sigma_px, const Eigen::Vector2d& normal);
+
+  struct Value {
+    double p;
+    double by_s;      ///< [1/px]
+    double by_sigma;  ///< [1/px]
+    double ramp;      ///< R [px].
+  };
+  /// Interpolates linearly in a table; accurate to 1e-4.
+  Value At(double s_px) const;
+
+ private:
+  double reach_px_;  // Farther away P is 0 or 1 to 1e-6.
+  std::vector<Value> table_;
+};
 
 /// The step that best fits the pixels of a strip in the sense of weighted least squares:
 ///
@@ -33,15 +65,16 @@ struct StepValue {
   double weight;
   bool counts;
 };
-using BySharedTuning = Eigen::Matrix<double, EdgeTuning::kShared, 1>;
-using SharedByShape = Eigen::Matrix<double, EdgeTuning::kShared, 3>;
+using BySharedNuisance = Eigen::Matrix<double, EdgeNuisance::kShared, 1>;
+using SharedByShape = Eigen::Matrix<double, EdgeNuisance::kShared, 3>;
 
 /// Relative standard deviation of the steps along one side.
 inline constexpr double kRiseSpread = 0.03;
 
 class StepModel {
  public:
-  StepModel(const SideRequest& request, const EdgeTuning& tuning, const Eigen::Vector2d& normal);
+  StepModel(const SideRequest& request, const EdgeNuisance& nuisance,
+            const Eigen::Vector2d& normal);
 
   StepValue At(const StepFit& fit, double share, const StripPixel& pixel) const;
   /// Derivatives of a pixel's grey value with respect to the parameters that all strips of the side
@@ -56,7 +89,7 @@ class StepModel {
   std::optional<StepFit> Start(const EdgeStrip& strip) const;
 
   SideRequest request_;
-  EdgeTuning tuning_;
+  EdgeNuisance nuisance_;
   BlurredStep step_;
 };
 

@@ -5,26 +5,26 @@
 namespace fenestra {
 namespace {
 
-// A parameter that is known to some extent.
+// A parameter with a prior.
 struct Known {
   int parameter;
   double value;
   double sigma;
 };
 
-std::vector<Known> AllKnown(const FrameKnowledge& knowledge) {
+std::vector<Known> AllKnown(const FramePrior& prior) {
   std::vector<Known> known;
-  if (knowledge.size) {
-    known.push_back({6, knowledge.size->width_m, knowledge.size->sigma_m});
-    known.push_back({7, knowledge.size->height_m, knowledge.size->sigma_m});
+  if (prior.size) {
+    known.push_back({6, prior.size->width_m, prior.size->sigma_m});
+    known.push_back({7, prior.size->height_m, prior.size->sigma_m});
   }
-  if (knowledge.outer_relief) {
+  if (prior.outer_relief) {
     for (int i = 9; i < 13; ++i) {
-      known.push_back({i, knowledge.outer_relief->mean_m, knowledge.outer_relief->sigma_m});
+      known.push_back({i, prior.outer_relief->mean_m, prior.outer_relief->sigma_m});
     }
   }
-  if (knowledge.inner_relief) {
-    known.push_back({13, knowledge.inner_relief->mean_m, knowledge.inner_relief->sigma_m});
+  if (prior.inner_relief) {
+    known.push_back({13, prior.inner_relief->mean_m, prior.inner_relief->sigma_m});
   }
   return known;
 }
@@ -53,7 +53,7 @@ double LossOfKnown(const FrameRectangle& frame, const std::vector<Known>& known)
   return sum;
 }
 
-// m of a measured plane as the frame has it, minus the measured one.
+// m as the frame predicts it, minus the measured m.
 Eigen::Vector3d PlaneResidual(const FrameRectangle& frame, const PlaneMeasurement& plane) {
   const Eigen::Vector3d normal = frame.R_LO.col(2);
   return normal / (normal.dot(frame.p_LO) + plane.relief_m) - plane.m;
@@ -88,16 +88,14 @@ double LossOfPlanes(const FrameRectangle& frame, const std::vector<PlaneMeasurem
 
 }  // namespace
 
-void AddKnowledge(const FrameRectangle& frame, const FrameKnowledge& knowledge, double plane_weight,
-                  NormalEquations& equations) {
-  AddKnown(frame, AllKnown(knowledge), equations);
-  AddPlanes(frame, knowledge.planes, plane_weight, equations);
+void AddPrior(const FrameRectangle& frame, const FramePrior& prior, double plane_weight,
+              NormalEquations& equations) {
+  AddKnown(frame, AllKnown(prior), equations);
+  AddPlanes(frame, prior.planes, plane_weight, equations);
 }
 
-double LossOfKnowledge(const FrameRectangle& frame, const FrameKnowledge& knowledge,
-                       double plane_weight) {
-  return LossOfKnown(frame, AllKnown(knowledge)) +
-         LossOfPlanes(frame, knowledge.planes, plane_weight);
+double LossOfPrior(const FrameRectangle& frame, const FramePrior& prior, double plane_weight) {
+  return LossOfKnown(frame, AllKnown(prior)) + LossOfPlanes(frame, prior.planes, plane_weight);
 }
 
 }  // namespace fenestra

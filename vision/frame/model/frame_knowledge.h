@@ -29,8 +29,9 @@ struct PlaneMeasurement {
   double relief_m = 0.0;        ///< The plane lies this far in front of (+) the frame's front.
 };
 
-/// All prior knowledge that enters a fit. Sides without a relief prior lie in the frame's plane.
-struct FrameKnowledge {
+/// Prior knowledge that enters a fit, including measured planes. Sides without a relief prior lie
+/// in the frame's plane.
+struct FramePrior {
   std::optional<SizePrior> size;
   std::optional<ReliefPrior> outer_relief;
   std::optional<ReliefPrior> inner_relief;
@@ -50,11 +51,10 @@ struct NormalEquations {
 
 /// Adds the prior knowledge to the normal equations. `plane_weight` is the squared ratio of the
 /// edges' residuals to their standard deviations.
-void AddKnowledge(const FrameRectangle& frame, const FrameKnowledge& knowledge, double plane_weight,
-                  NormalEquations& equations);
+void AddPrior(const FrameRectangle& frame, const FramePrior& prior, double plane_weight,
+              NormalEquations& equations);
 
-/// Sum of squares of the prior terms; AddKnowledge adds the negative gradient of half of it.
-double LossOfKnowledge(const FrameRectangle& frame, const FrameKnowledge& knowledge,
-                       double plane_weight);
+/// Sum of squares of the prior terms; AddPrior adds the negative gradient of half of it.
+double LossOfPrior(const FrameRectangle& frame, const FramePrior& prior, double plane_weight);
 
 }  // namespace fenestra

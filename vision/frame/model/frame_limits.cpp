@@ -5,14 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "vision/frame/model/window_shape.h"
+#include "vision/frame/detection/quadrilateral.h"
 
 namespace fenestra {
 namespace {
 
-// A window whose size differs by this share from what is expected is another one.
+// A window whose size differs from the expected one by more than this share is another window.
 constexpr double kUnexpected = 0.08;
-constexpr double kMostWarp = 0.1;  // Distance of the diagonals' middles over the longer side.
+constexpr double kMostWarp =
+    0.1;  // Distance between the midpoints of the diagonals over the longer side.
 
 }  // namespace
 

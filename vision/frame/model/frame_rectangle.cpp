@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// From -1 to 1 across the frame: (-1, 1) is top left.
+// Coordinates from -1 to 1 across the frame; (-1, 1) is top left.
 Vector2d Place(Side side, double share) {
   const double along = 2.0 * share - 1.0;
   switch (side) {
@@ -80,7 +80,7 @@ FrameRectangle FrameRectangle::FromCorners(const std::array<Vector3d, 4>& p_LV) 
   frame.width_m = across.norm();
   frame.height_m = up.norm();
   const Vector3d z = across.cross(up).normalized();
-  // The error of a right angle is shared by both directions.
+  // Both directions share the departure from a right angle.
   const Vector3d diagonal = (across.normalized() + up.normalized()).normalized();
   const Vector3d other = diagonal.cross(z).normalized();
   frame.R_LO.col(0) = (diagonal + other).normalized();

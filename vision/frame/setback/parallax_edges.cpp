@@ -11,21 +11,21 @@ namespace {
 
 constexpr double kFrom_px = -10.0;
 constexpr double kStep_px = 0.5;
-constexpr double kMostInset = 0.3;  // Of the frame's width.
+constexpr double kMostInset = 0.3;  // Share of the frame's width.
 constexpr double kNearestEdge_m = -0.15;
 constexpr double kDeepestEdge_m = 0.25;
-constexpr int kHalfStep = 2;    // A pixel on either side of an edge.
-constexpr int kHalfWindow = 4;  // What is alike around an edge: 2 px.
-// An edge stands out from those whose blur is in its window.
+constexpr int kHalfStep = 2;    // One pixel on either side of an edge.
+constexpr int kHalfWindow = 4;  // Half of the block around an edge that is matched: 2 px.
+// An edge must stand out from those whose blur is in its block.
 constexpr int kAlone = kHalfWindow + kHalfStep;
 constexpr double kLeastRise_dn = 1.0;
 constexpr double kLeastSigmas = 5.0;
-constexpr double kAlike = 0.9;
-// What blur, rounding and interpolation leave where noise does not hide it.
+constexpr double kLeastCorrelation = 0.9;
+// Error of blur, rounding and interpolation, visible where there is little noise.
 constexpr double kModel_px = 0.02;
-// The same where another edge is near, at another depth for all that is known.
+// The corresponding error if another edge is near, possibly at another depth.
 constexpr double kCrowded_px = 0.15;
-constexpr double kCrowding = 0.25;  // Of the edge's own rise.
+constexpr double kCrowding = 0.25;  // Share of the edge's own rise.
 
 struct Eye {
   double inwards_m;   // h
@@ -51,7 +51,8 @@ Place PlaceOf(const Eye& first, const Eye& second, double t0, double t1) {
   return {t0 - a0 * behind_m, behind_m};
 }
 
-// Where the second view sees what the first sees at t0, if it is so far behind the front.
+// Place at which the second view sees a point that the first view sees at t0, if it is this far
+// behind the front.
 double SeenBySecond(const Eye& first, const Eye& second, double t0, double behind_m) {
   const double inset_m = t0 - (first.inwards_m - t0) / first.distance_m * behind_m;
   return (inset_m * second.distance_m + second.inwards_m * behind_m) /
@@ -73,7 +74,7 @@ bool IsEdge(const SideProfile& profile, int i) {
   return true;
 }
 
-// Whether another edge begins just beyond the window, inwards (+1) or outwards (-1).
+// Tells whether another edge begins just beyond the block, inwards (+1) or outwards (-1).
 bool IsCrowded(const SideProfile& profile, int i, int direction) {
   const double least = kCrowding * std::abs(Rise(profile, i));
   for (int k = kHalfWindow + 1; k <= kAlone + kHalfWindow; ++k) {
@@ -82,8 +83,8 @@ bool IsCrowded(const SideProfile& profile, int i, int direction) {
   return false;
 }
 
-// 1 for two windows that differ by a constant.
-double Likeness(const SideProfile& a, int i, const SideProfile& b, int j) {
+// Correlation of two blocks; 1 if they differ by a constant.
+double Correlation(const SideProfile& a, int i, const SideProfile& b, int j) {
   double mean_a = 0.0;
   double mean_b = 0.0;
   for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
@@ -101,31 +102,32 @@ double Likeness(const SideProfile& a, int i, const SideProfile& b, int j) {
   return 2.0 * product / squares;
 }
 
-// The place in `b`, from `low` to `high`, that is most like place i of `a`, by a parabola.
-std::optional<double> MostAlike(const SideProfile& a, int i, const SideProfile& b, int low,
+// Finds the place in `b`, from `low` to `high`, that best matches place i of `a`, refined by a
+// parabola.
+std::optional<double> BestMatch(const SideProfile& a, int i, const SideProfile& b, int low,
                                 int high) {
   low = std::max(low, kHalfWindow + 1);
   high = std::min(high, b.size() - kHalfWindow - 2);
-  double best = kAlike;
+  double best = kLeastCorrelation;
   std::optional<int> where;
   for (int j = low; j <= high; ++j) {
-    const double likeness = Likeness(a, i, b, j);
-    if (likeness <= best) continue;
-    best = likeness;
+    const double correlation = Correlation(a, i, b, j);
+    if (correlation <= best) continue;
+    best = correlation;
     where = j;
   }
   if (!where || *where == low || *where == high) return std::nullopt;
-  const double before = Likeness(a, i, b, *where - 1);
-  const double after = Likeness(a, i, b, *where + 1);
+  const double before = Correlation(a, i, b, *where - 1);
+  const double after = Correlation(a, i, b, *where + 1);
   return *where + 0.5 * (before - after) / std::min(-1e-12, before - 2.0 * best + after);
 }
 
-// Standard deviation of the shift between two windows, in steps.
+// Standard deviation of the shift between two blocks, in steps.
 double SigmaOfShift(const SideProfile& a, int i, const SideProfile& b, int j) {
   double information = 1e-12;
   for (int k = -kHalfWindow; k <= kHalfWindow; ++k) {
     const double slope = 0.5 * (a.Grey(i + k + 1) - a.Grey(i + k - 1));
-    // Neighbours share pixels.
+    // Neighbouring samples share pixels.
     information += kStep_px * slope * slope / (a.Variance(i + k) + b.Variance(j + k));
   }
   return std::hypot(1.0 / std::sqrt(information), kModel_px / kStep_px);
@@ -152,13 +154,13 @@ std::vector<ParallaxEdge> FindParallaxEdges(const CameraView& first, const Camer
       return (SeenBySecond(eye, other, t0, behind_m) - grid.first_m) / grid.step_m;
     };
     const auto [low, high] = std::minmax({index(kNearestEdge_m), index(kDeepestEdge_m)});
-    const auto found = MostAlike(a, i, b, static_cast<int>(std::floor(low)) - 1,
+    const auto found = BestMatch(a, i, b, static_cast<int>(std::floor(low)) - 1,
                                  static_cast<int>(std::ceil(high)) + 1);
     if (!found) continue;
     const Place place = PlaceOf(eye, other, t0, grid.InsetAt(*found));
     const double by_step =
         std::abs(PlaceOf(eye, other, t0, grid.InsetAt(*found + 1.0)).behind_m - place.behind_m);
-    // False for what is no number, too.
+    // This is false for NaN, too.
     if (!(std::isfinite(by_step) && place.behind_m > 1.5 * kNearestEdge_m &&
           place.behind_m < 1.5 * kDeepestEdge_m)) {
       continue;

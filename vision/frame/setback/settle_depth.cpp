@@ -4,27 +4,28 @@
 #include <cmath>
 #include <vector>
 
-#include "vision/frame/setback/front_belief.h"
+#include "vision/frame/setback/frame_setback.h"
 #include "vision/frame/setback/upright_edges.h"
 
 namespace fenestra {
 namespace {
 
-// How far frames stand back where nothing tells: windows are set up to 10 cm deep.
+// Prior of the setback: windows are recessed by up to 10 cm.
 constexpr Setback kUnknown{.mean_m = 0.0, .sigma_m = 0.07};
 constexpr double kFlush = 0.5;  // Probability, a priori.
-// The same if the opening's edges are in the rectangle's plane.
+// Prior probability of being flush if the opening's edges lie in the rectangle's plane.
 constexpr double kFlushIfInOnePlane = 0.99;
-// Two views that are side by side do not tell the depth of level sides, nor of upright ones that
-// each view takes from another edge.
+// Two views side by side do not determine the depth of horizontal sides, nor of vertical ones for
+// which the views see different edges.
 constexpr double kUnknownReveal_m = 0.05;
-// What has this probability of being flush, is.
+// From this probability of being flush on, a frame counts as flush.
 constexpr double kSurelyFlush = 0.95;
-// What has this one may be, and stays: to move a flush frame would spoil what is known best.
+// From this probability on, a frame stays where it is, since moving a flush frame would spoil its
+// most accurate coordinate.
 constexpr double kMayBeFlush = 0.15;
-// Of a model with one front, one reveal and one thickness.
+// Error of the model with one front, one reveal and one thickness.
 constexpr double kLeastSigma_m = 0.01;
-// Of parallax, what edges that are near each other in the pictures leave in all sights alike.
+// Parallax error from edges close to each other in the images, common to all measurements.
 constexpr double kBlend_px = 0.1;
 
 void MoveBack(FrameFit& fit, const Setback& setback) {
@@ -34,9 +35,9 @@ void MoveBack(FrameFit& fit, const Setback& setback) {
       setback.sigma_m * setback.sigma_m * normal * normal.transpose();
 }
 
-// Of a side's apparent place, where it may be the frame's or the wall's, `depth_m` before it: on
-// sides that are looked at from within; on others the wall's edge hides the frame's. p_OC: of the
-// camera.
+// Shift of a side's apparent place if it is the edge of the wall, `depth_m` in front of the frame,
+// instead of the frame's own. It is zero for sides that are looked at from outside, where the
+// wall's edge hides the frame's. p_OC is the camera's position.
 double ParallaxOf(const Eigen::Vector3d& p_OC, const FrameRectangle& frame, int axis, double sign,
                   double depth_m) {
   const double half_m = 0.5 * (axis == 0 ? frame.width_m : frame.height_m);
@@ -53,7 +54,8 @@ double LeastSigma(std::span<const CameraView> views, const FrameRectangle& frame
   return std::hypot(kLeastSigma_m, kBlend_px * by_pixel_m);
 }
 
-// The frame between where its upright sides are, and not where they seem to be on its front.
+// Centres the frame between the places where its vertical sides are, rather than where they appear
+// on its front.
 void Centre(const ParallaxEdge& left, const ParallaxEdge& right, FrameFit& fit) {
   FrameRectangle& frame = fit.front;
   frame.p_LO += 0.5 * (left.inset_m - right.inset_m) * frame.R_LO.col(0);
@@ -64,7 +66,7 @@ void Centre(const ParallaxEdge& left, const ParallaxEdge& right, FrameFit& fit) 
 
 void AddParallax(std::span<const CameraView> views, const SideDepths& depths, FrameFit& fit) {
   const FrameRectangle& frame = fit.adjustment.frame;
-  Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  // Of a camera between the views.
+  Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  // A camera midway between the views.
   for (const CameraView& view : views) {
     p_LC += view.X_CL.inverse().translation() / static_cast<double>(views.size());
   }
@@ -83,14 +85,15 @@ void SettleDepth(std::span<const CameraView> views, const RevealGrey& grey, Fram
   const FrameRectangle& frame = fit.adjustment.frame;
   UprightPair edges;
   if (views.size() == 2) edges = FindUprightEdges(views[0], views[1], frame);
-  const std::vector<DepthSight> sights = edges.Sights();
+  const std::vector<DepthMeasurement> measurements = edges.Measurements();
   Setback setback = kUnknown;
-  if (!sights.empty()) {
+  if (!measurements.empty()) {
     const double flush = fit.is_in_one_plane && edges.AreInPlane() ? kFlushIfInOnePlane
                                                                    : edges.ProbablyFlush(kFlush);
-    const FrontBelief belief = BelieveFront(sights, flush);
-    if (belief.flush > kSurelyFlush && !edges.IsBesideOther()) return;
-    setback = belief.flush > kMayBeFlush ? Setback{0.0, belief.root_mean_square_m} : belief.setback;
+    const SetbackPosterior posterior = InferSetback(measurements, flush);
+    if (posterior.flush > kSurelyFlush && !edges.IsBesideOther()) return;
+    setback = posterior.flush > kMayBeFlush ? Setback{0.0, posterior.root_mean_square_m}
+                                            : posterior.setback;
     setback.sigma_m = std::max(LeastSigma(views, frame), setback.sigma_m);
   } else if (edges.AreInPlane() && ShowsNoReveal(views, frame, grey)) {
     if (!edges.IsBesideOther()) return;

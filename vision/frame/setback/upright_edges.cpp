@@ -10,13 +10,13 @@ namespace fenestra {
 namespace {
 
 constexpr double kAtSide_px = 2.0;
-constexpr double kClearOfSide_px = 2.0;  // Of an edge within, from the side's own.
-// Of the strongest edge: what is less may be a change of the light.
+constexpr double kClearOfSide_px = 2.0;  // Distance of an inner edge from the side's own.
+// Share of the strongest edge; a weaker one may be a change of the light.
 constexpr double kLeastShare = 0.03;
 constexpr double kInPlaneSigmas = 3.0;
 constexpr double kInPlane_m = 0.004;
-constexpr double kApart_m = 0.02;  // A reveal that is told from blur.
-// Where sides that are blends of the wall's and the frame's edges seem to be.
+constexpr double kApart_m = 0.02;  // Shallowest reveal that can be separated from blur.
+// Range of the apparent depth of sides that are blends of the wall's and the frame's edges.
 constexpr double kBlendRange_m = 0.05;
 
 UprightEdges EdgesOf(const CameraView& first, const CameraView& second, const FrameRectangle& frame,
@@ -43,28 +43,29 @@ UprightEdges EdgesOf(const CameraView& first, const CameraView& second, const Fr
   return edges;
 }
 
-void AddSights(const UprightEdges& edges, bool in_plane, std::vector<DepthSight>& sights) {
+void AddMeasurements(const UprightEdges& edges, bool in_plane,
+                     std::vector<DepthMeasurement>& measurements) {
   const double from_m = in_plane ? edges.own->behind_m : 0.0;
   const double from_sigma_m = in_plane ? edges.own->sigma_m : 0.0;
   for (const ParallaxEdge& edge : edges.within) {
-    sights.push_back({.behind_m = edge.behind_m - from_m,
-                      .sigma_m = std::hypot(edge.sigma_m, edge.crowding_m, from_sigma_m),
-                      .is_in_thickness = edge.rise_dn > 0.0 && !edge.is_looked_across});
+    measurements.push_back({.behind_m = edge.behind_m - from_m,
+                            .sigma_m = std::hypot(edge.sigma_m, edge.crowding_m, from_sigma_m),
+                            .is_in_thickness = edge.rise_dn > 0.0 && !edge.is_looked_across});
   }
 }
 
-// The frame's own edge on the side that is not looked across, if it is told from the wall's on the
-// other.
-std::optional<DepthSight> FarSide(const UprightPair& pair) {
+// The frame's own edge on the side that is not looked across, if its depth differs significantly
+// from that of the wall's edge on the other side.
+std::optional<DepthMeasurement> FarSide(const UprightPair& pair) {
   if (!pair.AreFarAndNear()) return std::nullopt;
   const bool left_is_near = pair.left.own->is_looked_across;
   const ParallaxEdge& near = left_is_near ? *pair.left.own : *pair.right.own;
   const ParallaxEdge& far = left_is_near ? *pair.right.own : *pair.left.own;
   const double least_m = kApart_m + kInPlaneSigmas * std::hypot(far.sigma_m, near.sigma_m);
   if (far.behind_m - near.behind_m < least_m) return std::nullopt;
-  return DepthSight{.behind_m = far.behind_m,
-                    .sigma_m = std::hypot(far.sigma_m, far.crowding_m),
-                    .is_in_thickness = false};
+  return DepthMeasurement{.behind_m = far.behind_m,
+                          .sigma_m = std::hypot(far.sigma_m, far.crowding_m),
+                          .is_in_thickness = false};
 }
 
 }  // namespace
@@ -81,13 +82,13 @@ bool UprightPair::IsBesideOther() const {
   return (left.own && left.own->is_crowded_outside) || (right.own && right.own->is_crowded_outside);
 }
 
-std::vector<DepthSight> UprightPair::Sights() const {
+std::vector<DepthMeasurement> UprightPair::Measurements() const {
   const bool in_plane = AreInPlane();
-  std::vector<DepthSight> sights;
-  AddSights(left, in_plane, sights);
-  AddSights(right, in_plane, sights);
-  if (const auto far = in_plane ? std::nullopt : FarSide(*this)) sights.push_back(*far);
-  return sights;
+  std::vector<DepthMeasurement> measurements;
+  AddMeasurements(left, in_plane, measurements);
+  AddMeasurements(right, in_plane, measurements);
+  if (const auto far = in_plane ? std::nullopt : FarSide(*this)) measurements.push_back(*far);
+  return measurements;
 }
 
 double UprightPair::ProbablyFlush(double before) const {
@@ -113,7 +114,7 @@ double UprightPair::Foremost() const {
 
 UprightPair FindUprightEdges(const CameraView& left, const CameraView& right,
                              const FrameRectangle& frame) {
-  // Each side from the view that is on it, so that mirrored views show mirrored edges.
+  // Each side is searched from the view on that side, so that mirrored views give mirrored edges.
   return {EdgesOf(left, right, frame, Side::kLeft), EdgesOf(right, left, frame, Side::kRight)};
 }
 

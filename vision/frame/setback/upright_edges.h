@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/setback/front_belief.h"
+#include "vision/frame/setback/frame_setback.h"
 #include "vision/frame/setback/parallax_edges.h"
 
 namespace fenestra {
@@ -36,7 +36,7 @@ struct UprightPair {
   /// Measured depths of the front and of the frame's thickness. They are relative to the
   /// rectangle's plane, or to its edges where these lie in the plane, since the plane may be
   /// slightly tilted.
-  std::vector<DepthSight> Sights() const;
+  std::vector<DepthMeasurement> Measurements() const;
 
   /// Updates the probability that the frame is flush by the depths of the rectangle's own sides: if
   /// it is flush they lie in the plane; if it is not, they may lie there by chance.

@@ -13,7 +13,7 @@ double Cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// Half of a hull: the chain along `order` that only ever turns left.
+// Half of a hull: the chain along `order` that turns only left.
 std::vector<int> LeftTurningChain(const std::vector<Vector2d>& points,
                                   const std::vector<int>& order) {
   const auto at = [&points](int i) { return points[static_cast<size_t>(i)]; };
@@ -30,9 +30,9 @@ std::vector<int> LeftTurningChain(const std::vector<Vector2d>& points,
   return chain;
 }
 
-// The points but those that lie inside the quadrilateral of the outermost ones along the diagonals,
-// by S. G. Akl and G. T. Toussaint, "A fast convex hull algorithm", 1978: none of these is on the
-// hull, and of a cloud they are most.
+// Removes the points inside the quadrilateral of the outermost ones along the diagonals (S. G. Akl
+// and G. T. Toussaint, "A fast convex hull algorithm", 1978). None of them is on the hull, and in a
+// cloud they are the majority.
 std::vector<int> MaybeOnHull(const std::vector<Vector2d>& points) {
   std::vector<int> all(points.size());
   std::iota(all.begin(), all.end(), 0);
@@ -47,7 +47,7 @@ std::vector<int> MaybeOnHull(const std::vector<Vector2d>& points) {
   std::erase_if(all, [&](int i) {
     const Vector2d& p = points[static_cast<size_t>(i)];
     for (size_t k = 0; k < 4; ++k) {
-      // A margin, so that rounding does not decide.
+      // The margin keeps rounding from deciding.
       const Vector2d side = corner[(k + 1) % 4] - corner[k];
       if (!(Cross(side, p - corner[k]) > 1e-9 * side.squaredNorm())) return false;
     }

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/rgbd/observation_check.h"
-#include "vision/rgbd/undistortion.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 namespace {
@@ -23,7 +22,7 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration) {
       {1.0, static_cast<double>(d.width_px) / p.width_px, d.fx_px / p.fx_px, d.fy_px / p.fy_px});
   const int width_px = std::max(1, static_cast<int>(std::lround(s * p.width_px)));
   const int height_px = std::max(1, static_cast<int>(std::lround(s * p.height_px)));
-  // The scales that were achieved with whole pixels; both are s for sizes that divide.
+  // The scales after rounding to whole pixels; both equal s if the sizes divide.
   const double sx = static_cast<double>(width_px) / p.width_px;
   const double sy = static_cast<double>(height_px) / p.height_px;
   return CameraModel({.width_px = width_px,

@@ -3,7 +3,7 @@
 namespace fenestra {
 namespace {
 
-// sin² of the smallest angle between diagonals that are not called parallel.
+// sin² of the smallest angle between diagonals that do not count as parallel.
 constexpr double kSmallestSine2 = 1e-12;
 
 bool IsInside(double parameter) {
@@ -27,6 +27,21 @@ std::optional<DiagonalCrossing> CrossDiagonals(const FourVertices& p_CV) {
   const Eigen::Vector3d p_CA = p_CV[0] + s * u;
   const Eigen::Vector3d p_CB = p_CV[1] + t * v;
   return DiagonalCrossing{.p_CO = 0.5 * (p_CA + p_CB), .gap_m = (p_CA - p_CB).norm()};
+}
+
+Eigen::Matrix3d CrossingCovariance(const FourVertices& p_KV, const Plane& plane,
+                                   const VertexErrors& errors) {
+  const Eigen::Vector3d& n = plane.normal_K;
+  const Eigen::Matrix3d across = n * n.transpose();
+  const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - across;
+  const double unequal_m = (p_KV[2] - p_KV[0]).norm() - (p_KV[3] - p_KV[1]).norm();
+  const double squares_m2 =
+      (along * (p_KV[0] - p_KV[1] + p_KV[2] - p_KV[3])).squaredNorm() + unequal_m * unequal_m;
+  const double variance_m2 =
+      (errors.expected_weight * errors.expected_m * errors.expected_m + 0.25 * squares_m2) /
+      (errors.expected_weight + 3.0);
+  return 0.5 * variance_m2 * along +
+         (0.25 * errors.across_m * errors.across_m + errors.common_m * errors.common_m) * across;
 }
 
 }  // namespace fenestra

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "vision/rgbd/paper/convex_hull.h"
+
 namespace fenestra {
 namespace {
 
@@ -13,7 +15,7 @@ using Points = std::vector<Eigen::Vector3d>;
 
 constexpr int kTriples = 100;
 constexpr size_t kScoredPoints = 1000;
-// A plane closer to the camera's centre than this is seen edge on.
+// A plane closer to the camera's centre than this is seen edge-on.
 constexpr double kClosestPlaneM = 1e-6;
 
 std::optional<Plane> Oriented(const Eigen::Vector3d& normal_K, const Eigen::Vector3d& p_KQ) {
@@ -67,7 +69,8 @@ Points EvenlySpaced(const Points& points_K) {
 }  // namespace
 
 Eigen::Vector2d Plane::Coordinates(const Eigen::Vector3d& p_KQ) const {
-  // x: the camera's +x axis laid into the plane, or its +y axis where the plane is seen along x.
+  // The first axis is the camera's +x axis projected onto the plane, or its +y axis if the plane is
+  // seen along x.
   const bool along_x = std::abs(normal_K.x()) > 0.9;
   const Eigen::Vector3d axis = along_x ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d right = (axis - normal_K.dot(axis) * normal_K).normalized();
@@ -101,6 +104,35 @@ std::optional<Plane> DominantPlane(const Points& points_K, const PlaneTolerance&
   }
   if (!best) return std::nullopt;
   return LeastSquares(Inliers(points_K, *best, tolerance));
+}
+
+std::optional<CloudShape> ShapeOf(const std::vector<Eigen::Vector3d>& points_K,
+                                  const PlaneTolerance& tolerance, const RandomStream& triples) {
+  const auto plane = DominantPlane(points_K, tolerance, triples);
+  if (!plane) return std::nullopt;
+  std::vector<Eigen::Vector2d> feet;
+  std::vector<double> depths_m;
+  double squares_m2 = 0.0;
+  for (const Eigen::Vector3d& p_KQ : points_K) {
+    const double distance_m = plane->SignedDistance(p_KQ);
+    if (std::abs(distance_m) <= tolerance.At(p_KQ.z())) {
+      squares_m2 += distance_m * distance_m;
+      feet.push_back(plane->Coordinates(p_KQ));
+      depths_m.push_back(p_KQ.z());
+    }
+  }
+  std::vector<Eigen::Vector2d> hull;
+  for (const int i : ConvexHull(feet)) hull.push_back(feet[static_cast<size_t>(i)]);
+  const double area_m2 = SignedArea(hull);
+  if (!(area_m2 > 0.0)) return std::nullopt;
+  const auto middle = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 2);
+  std::nth_element(depths_m.begin(), middle, depths_m.end());
+  const double count = static_cast<double>(depths_m.size());
+  return CloudShape{.plane = *plane,
+                    .hull_area_m2 = area_m2,
+                    .median_depth_m = *middle,
+                    .inlier_share = count / static_cast<double>(points_K.size()),
+                    .scatter_m = std::sqrt(squares_m2 / count)};
 }
 
 }  // namespace fenestra

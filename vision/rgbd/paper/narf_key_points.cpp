@@ -16,14 +16,14 @@ struct NarfRangeImage::Impl {
 
 namespace {
 
-// PCL fills its static trigonometric tables when the first range image is made, without a lock.
-// Making that one here, once, lets detectors run in several threads.
+// PCL fills its static trigonometric tables without a lock when the first range image is made.
+// Making one here allows detectors to run in several threads.
 void FillLookupTables() {
   static const pcl::RangeImage first;
   static_cast<void>(first);
 }
 
-// Pixel (n u, n v) becomes (u, v), so that principal point and focal lengths are divided by n.
+// Pixel (n u, n v) becomes (u, v), so the principal point and the focal lengths are divided by n.
 cv::Mat1f EveryNth(const cv::Mat1f& image, int n) {
   cv::Mat1f thinned(std::max(1, image.rows / n), std::max(1, image.cols / n));
   for (int v = 0; v < thinned.rows; ++v) {

@@ -8,10 +8,10 @@ namespace fenestra {
 namespace {
 
 constexpr double kShrink = 0.5;
-constexpr int kFractionBits = 8;  // Of a pixel, in cv::fillConvexPoly.
-constexpr int kPlaces = 32;       // Along a side.
+constexpr int kFractionBits = 8;  // Fractional bits of a pixel in cv::fillConvexPoly.
+constexpr int kPlaces = 32;       // Places along a side.
 
-// Which pixels of the image the cloud has on the plane.
+// Tells at which pixels of the image the cloud has a point on the plane.
 class OnPlane {
  public:
   OnPlane(const DarkCloud& cloud, const CameraModel& camera, const Plane& plane,

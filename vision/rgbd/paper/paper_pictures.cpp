@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "vision/rgbd/depth_picture.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 

@@ -6,18 +6,17 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "vision/rgbd/depth_picture.h"
-#include "vision/rgbd/paper/crossing_covariance.h"
+#include "vision/rgbd/paper/diagonals.h"
 #include "vision/rgbd/paper/frame_vertices.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 #include "vision/rgbd/paper/opening.h"
 #include "vision/rgbd/paper/paper_pictures.h"
-#include "vision/rgbd/paper/vertices.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 namespace {
 
-// The sampling of planes is part of the detector: the same for every observation.
+// The random samples of planes are part of the detector and equal for every observation.
 constexpr uint64_t kPlaneSeed = 1;
 
 RgbdCalibration Checked(const RgbdCalibration& calibration) {
@@ -36,9 +35,9 @@ RgbdCalibration Checked(const RgbdCalibration& calibration) {
   return calibration;
 }
 
-// Parts of a cloud that are searched on their own; each costs a NARF.
+// Most parts of a cloud that are searched separately; each costs a run of NARF.
 constexpr size_t kMostParts = 8;
-// Key points lie up to this share of a side inside of its ends.
+// Key points lie up to this share of a side inside its ends.
 constexpr double kSideShare = 0.25;
 
 FourVertices VerticesOf(const std::vector<KeyPoint>& key_points, const std::array<int, 4>& chosen) {
@@ -72,7 +71,7 @@ std::optional<Miss> CloudFault(const DarkCloud& cloud, const PaperRgbdOptions& o
   return std::nullopt;
 }
 
-// Ends the running stage however Detect is left.
+// Ends the running stage when Detect returns or throws.
 class StageEnd {
  public:
   explicit StageEnd(StageLog& log) : log_(log) {}

@@ -2,7 +2,6 @@
 
 #include "core/detection/detector.h"
 #include "core/geometry/calibration.h"
-#include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/dark_cloud.h"
 #include "vision/rgbd/paper/depth_registration.h"
 #include "vision/rgbd/paper/diagonals.h"

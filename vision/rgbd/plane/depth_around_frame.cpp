@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 constexpr double kRing = 1.0 / 3.0;
 constexpr double kKnown = 0.03;
 
-// Distance outside of the farthest side, positive outside.
+// Distance from the quadrilateral's farthest side, positive outside.
 double DistanceOutside(const Quadrilateral& q, const std::array<Vector2d, 4>& outward,
                        const Vector2d& p) {
   double most = -std::numeric_limits<double>::infinity();
@@ -21,10 +21,10 @@ double DistanceOutside(const Quadrilateral& q, const std::array<Vector2d, 4>& ou
   return most;
 }
 
-// Pixels of a camera in the origin that look at a frame's front.
+// Numbers of pixels of a camera at the origin that see a frame's front.
 struct PixelCounts {
-  double border;  // `clear_px` inside of the border's edges.
-  double inside;  // The same in the opening.
+  double border;  // At least `clear_px` inside the border's edges.
+  double inside;  // At least `clear_px` inside the opening.
 };
 PixelCounts CountPixels(const FrameRectangle& frame, double f_px, double clear_px) {
   const double distance_m = frame.p_LO.norm();
@@ -108,7 +108,7 @@ FrameDepth DepthOf(const std::vector<DepthPoint>& points, const FrameRectangle& 
     const Vector2d beyond = p_O.head<2>().cwiseAbs() - outer;
     const double outside_m = beyond.maxCoeff();
     if (outside_m > reach_m) continue;
-    // How far the sight moves over the front when it moves by so many pixels, at most.
+    // Largest distance on the front that corresponds to this many pixels.
     const double cosine = std::abs(normal.dot(point.ray_D)) / point.ray_D.norm();
     const double clear_m = reach.clear_px * depth_m / (f_px * std::max(0.2, cosine));
     if (outside_m > clear_m) {

@@ -15,14 +15,15 @@ using Eigen::Vector3d;
 constexpr int kTriples = 80;
 constexpr size_t kMostTried = 400;
 constexpr double kOutlier = 3.5;
-constexpr int kRefitsFound = 4;     // From three points on.
-constexpr int kRefitsMeasured = 2;  // From a plane that is nearly right.
-constexpr int kBlockRounds = 2;
-constexpr double kBlockWindows = 3.5;  // Side of a block in windows.
-constexpr double kFullBlock = 0.25;    // Blocks with fewer of their points do not count.
-// What the windows' size tells of the scatter of blocks is worth so many blocks.
-constexpr double kTrustInWindows = 30.0;
-constexpr double kLeastScatter = 0.5;  // Of the variance that the windows' size makes expect.
+constexpr int kRefitsFound = 4;     // Refits that start from three points.
+constexpr int kRefitsMeasured = 2;  // Refits that start from a nearly correct plane.
+constexpr int kTileRounds = 2;
+constexpr double kTileBlocks = 3.5;  // Side of a tile in matching blocks.
+constexpr double kFullTile = 0.25;   // Tiles with a smaller share of their points do not count.
+// Weight of the scatter that the size of the matching blocks predicts, as a number of tiles.
+constexpr double kPredictedTiles = 30.0;
+// Least scatter, as a share of the variance that the size of the matching blocks predicts.
+constexpr double kLeastScatter = 0.5;
 
 double Residual(const DepthPoint& point, const Vector3d& m) {
   return point.inverse_depth - m.dot(point.ray_D);
@@ -58,8 +59,8 @@ std::optional<Vector3d> MostPopular(const std::vector<DepthPoint>& points, doubl
   return best;
 }
 
-// Sum and number of the residuals in one block of the image.
-struct Block {
+// Sum and number of the residuals in one tile of the image.
+struct Tile {
   double sum = 0.0;
   double count = 0.0;
 };
@@ -70,9 +71,9 @@ class PlaneFitter {
       : points_(points),
         noise_(noise),
         least_sigma_(std::max(0.2 * noise.sigma, noise.step / std::sqrt(12.0))),
-        side_px_(std::max(1, static_cast<int>(kBlockWindows * noise.window_px))),
+        side_px_(std::max(1, static_cast<int>(kTileBlocks * noise.window_px))),
         half_(noise.image.width / (2 * side_px_) + 1, noise.image.height / (2 * side_px_) + 1),
-        full_(kBlockWindows * kBlockWindows * noise.window_points) {
+        full_(kTileBlocks * kTileBlocks * noise.window_points) {
     plane_.sigma = noise.sigma;
     plane_.is_inlier.assign(points.size(), false);
   }
@@ -86,13 +87,13 @@ class PlaneFitter {
     return true;
   }
 
-  // Leaves out blocks that are off the plane.
-  bool DropBlocks() {
-    const std::vector<Block> blocks = Blocks();
+  // Leaves out tiles that are off the plane.
+  bool DropTiles() {
+    const std::vector<Tile> tiles = Tiles();
     std::vector<double> sizes;
-    for (const Block& block : blocks) {
-      if (block.count < kFullBlock * full_) continue;
-      sizes.push_back(std::abs(block.sum) / std::sqrt(block.count));
+    for (const Tile& tile : tiles) {
+      if (tile.count < kFullTile * full_) continue;
+      sizes.push_back(std::abs(tile.sum) / std::sqrt(tile.count));
     }
     if (sizes.size() < 8) return true;
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
@@ -101,8 +102,8 @@ class PlaneFitter {
         kOutlier * std::max(1.4826 * *middle, std::sqrt(kLeastScatter * ExpectedScatter()));
     for (size_t i = 0; i < points_.size(); ++i) {
       if (!plane_.is_inlier[i]) continue;
-      const Block& block = blocks[PlaceOf(points_[i])];
-      if (std::abs(block.sum) > limit * std::sqrt(block.count)) plane_.is_inlier[i] = false;
+      const Tile& tile = tiles[PlaceOf(points_[i])];
+      if (std::abs(tile.sum) > limit * std::sqrt(tile.count)) plane_.is_inlier[i] = false;
     }
     return Refit();
   }
@@ -116,7 +117,7 @@ class PlaneFitter {
     const Matrix3d inverse = normal_.inverse();
     Matrix3d covariance = Scatter() * inverse;
     covariance += inverse * Terraces() * inverse;
-    const double too_near = WindowBias();
+    const double too_near = BlockBias();
     plane_.m *= 1.0 - too_near;
     covariance += too_near * too_near * plane_.m * plane_.m.transpose();
     plane_.information = covariance.inverse();
@@ -157,8 +158,8 @@ class PlaneFitter {
     return plane_.m.allFinite();
   }
 
-  // Index of a point's block. From the image's middle outwards, so that a mirrored image has
-  // mirrored blocks.
+  // Index of a point's tile. Tiles are counted from the image's middle outwards, so that a mirrored
+  // image has mirrored tiles.
   size_t PlaceOf(const DepthPoint& point) const {
     const auto place = [this](int pixel, int count) {
       return static_cast<int>(std::floor((2.0 * pixel - count + 1.0) / (2.0 * side_px_)));
@@ -168,37 +169,37 @@ class PlaneFitter {
     return static_cast<size_t>(row * 2 * half_.width + column);
   }
 
-  std::vector<Block> Blocks() const {
-    std::vector<Block> blocks(static_cast<size_t>(4 * half_.area()));
+  std::vector<Tile> Tiles() const {
+    std::vector<Tile> tiles(static_cast<size_t>(4 * half_.area()));
     for (size_t i = 0; i < points_.size(); ++i) {
       if (!plane_.is_inlier[i]) continue;
-      Block& block = blocks[PlaceOf(points_[i])];
-      block.sum += Residual(points_[i], plane_.m);
-      block.count += 1.0;
+      Tile& tile = tiles[PlaceOf(points_[i])];
+      tile.sum += Residual(points_[i], plane_.m);
+      tile.count += 1.0;
     }
-    return blocks;
+    return tiles;
   }
 
-  // Variance of a sum of residuals, per point, for windows of the given size.
+  // Variance of a sum of residuals per point, for matching blocks of the given size.
   double ExpectedScatter() const {
     return plane_.sigma * plane_.sigma * std::max(1.0, noise_.window_points);
   }
 
   double Scatter() const {
-    double squares = kTrustInWindows * ExpectedScatter();
-    double weight = kTrustInWindows;
-    // Windows that reach over a block's border make its mean scatter less.
-    const double within = std::pow(1.0 - 1.0 / (3.0 * kBlockWindows), 2);
-    for (const Block& block : Blocks()) {
-      if (block.count < kFullBlock * full_) continue;
-      squares += block.sum * block.sum / block.count / within;
+    double squares = kPredictedTiles * ExpectedScatter();
+    double weight = kPredictedTiles;
+    // Matching blocks that extend beyond a tile's border reduce the scatter of its mean.
+    const double within = std::pow(1.0 - 1.0 / (3.0 * kTileBlocks), 2);
+    for (const Tile& tile : Tiles()) {
+      if (tile.count < kFullTile * full_) continue;
+      squares += tile.sum * tile.sum / tile.count / within;
       weight += 1.0;
     }
     return std::max(squares / weight, kLeastScatter * ExpectedScatter());
   }
 
-  // By how much of itself m is too large.
-  double WindowBias() const {
+  // Relative bias of m, which is too large.
+  double BlockBias() const {
     double sum = 0.0;
     for (size_t i = 0; i < points_.size(); ++i) {
       if (plane_.is_inlier[i]) sum += points_[i].inverse_depth;
@@ -233,9 +234,9 @@ class PlaneFitter {
   double least_sigma_;
   DepthPlane plane_{};
   Matrix3d normal_ = Matrix3d::Zero();
-  int side_px_;    // Of a block.
-  cv::Size half_;  // Blocks on either side of the image's middle.
-  double full_;    // Points of a block without holes.
+  int side_px_;    // Side of a tile.
+  cv::Size half_;  // Number of tiles on either side of the image's middle.
+  double full_;    // Number of points in a tile without holes.
 };
 
 }  // namespace
@@ -267,8 +268,8 @@ std::optional<DepthPlane> MeasureDepthPlane(const std::vector<DepthPoint>& point
                                             int least_points) {
   PlaneFitter fitter(points, noise);
   if (!fitter.Start(start, kRefitsMeasured)) return std::nullopt;
-  for (int i = 0; i < kBlockRounds; ++i) {
-    if (!fitter.DropBlocks()) return std::nullopt;
+  for (int i = 0; i < kTileRounds; ++i) {
+    if (!fitter.DropTiles()) return std::nullopt;
   }
   if (fitter.inliers() < least_points) return std::nullopt;
   return fitter.Finish();

@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMostColumns = 400;
 
-// Every so many columns, so chosen that a mirrored image is read at the mirrored ones.
+// Chooses every n-th column such that a mirrored image is read at the mirrored columns.
 std::vector<int> MirroredColumns(int width_px, int every) {
   std::vector<int> columns;
   for (int u = every / 2; 2 * u + 1 < width_px; u += every) columns.push_back(u);

@@ -10,9 +10,9 @@ namespace {
 constexpr double kGuessedBorder = 0.06;
 constexpr int kPlaces = 16;
 constexpr double kHidden_m = 0.02;
-constexpr double kEndShare = 0.1;  // Left out at each end of a side.
+constexpr double kEndShare = 0.1;  // Share that is left out at each end of a side.
 
-// Pixels along the middle of the border, those that are in the image.
+// Returns the pixels along the middle of the border that are in the image.
 std::vector<cv::Point> MiddleOf(const CameraView& view, const FrameRectangle& frame, Side side) {
   FrameRectangle middle = frame;
   middle.border_m = 0.5 * (frame.border_m > 0.0 ? frame.border_m : GuessedBorder(frame));
@@ -39,7 +39,7 @@ double BrightestOverDarkestSide(const CameraView& view, const FrameRectangle& fr
   double darkest = 255.0;
   double brightest = 0.0;
   for (const Side side : kAllSides) {
-    // Before a side that the wall's edge hides, the wall is seen where the frame would be.
+    // On a side that the wall's edge hides, the wall is seen instead of the frame.
     if (frame.outer_relief_m[static_cast<size_t>(side)] > kHidden_m) continue;
     std::vector<double> greys;
     for (const cv::Point& place : MiddleOf(view, frame, side)) greys.push_back(view.image(place));

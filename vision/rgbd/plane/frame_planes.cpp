@@ -4,7 +4,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+
+#include "vision/frame/setback/settle_depth.h"
 
 namespace fenestra {
 namespace {
@@ -14,42 +18,44 @@ using Eigen::Vector3d;
 
 constexpr int kLeastWall = 100;
 constexpr int kLeastFront = 30;
-constexpr double kWallReach = 1.5;  // Of the frame's longer side, on each side of it.
-constexpr double kFree_m = 1.0;     // Standard deviation of an offset that is not known.
+constexpr double kWallReach = 1.5;  // In longer sides of the frame, on each side of it.
+constexpr double kFree_m = 1.0;     // Standard deviation of an unknown offset.
 constexpr double kOtherwise = 4.0;
 constexpr double kOtherwise_m = 0.015;
-// What is so far behind the front or before it is no part of a frame.
+// Points this far behind or in front of the front are not part of a frame.
 constexpr double kOff_m = 0.15;
 constexpr double kOffSigmas = 6.0;
 constexpr int kLeastOff = 15;
-constexpr double kLeastOpen = 0.3;  // Of the pixels between the edges.
-// Of the pixels within the frame's edges. Something may stand before it that hides a part.
+constexpr double kLeastOpen = 0.3;  // Share of the pixels between the edges.
+// Share of the pixels within the frame's edges. An object in front of the frame may hide a part of
+// it.
 constexpr double kLeastBefore = 0.6;
-// Of the front's pixels. Where black paint returns fewer, those are the ones that noise has moved.
+// Share of the front's pixels. If black paint returns fewer, these are the ones that noise has
+// moved.
 constexpr double kLeastReturns = 0.6;
-// Down to here the mean of them is right to this.
+// Down to this share, the mean of the returns is accurate to kMovedSigma_m.
 constexpr double kFewReturns = 0.3;
 constexpr double kMovedSigma_m = 0.02;
-// A frame that is not where it was said to be is something else.
+// A frame this far from where the settings place it is something else.
 constexpr double kUnexpected = 5.0;
 constexpr double kTold_m = 0.01;
 constexpr double kInlier = 3.5;
-constexpr double kInPlane = 0.9;  // Of the points of a surface.
+constexpr double kInPlane = 0.9;  // Share of the points of a surface.
 
-// The plane parallel to this one and `setback_m` behind it.
+// Returns the plane parallel to this one and `setback_m` behind it.
 Vector3d Behind(const Vector3d& m, double setback_m) {
   return m.normalized() / (1.0 / m.norm() + setback_m);
 }
 
 PlaneMeasurement WallMeasurement(const DepthPlane& wall, double setback_m, double sigma_m) {
-  // m = n/(n·p + relief), so that dm/drelief = |m| m, as n points towards the camera.
+  // m = n/(n·p + relief), so that dm/drelief = |m| m, since n points towards the camera.
   const Vector3d by_setback = wall.m.norm() * wall.m;
   const Matrix3d covariance =
       wall.information.inverse() + sigma_m * sigma_m * by_setback * by_setback.transpose();
   return {.m = wall.m, .information = covariance.inverse(), .relief_m = setback_m};
 }
 
-// Of the front behind the wall, by the depth between the frame's edges.
+// Setback of the front behind the wall, measured by the depth between the frame's edges.
 struct Offset {
   double setback_m;
   double sigma_m;
@@ -66,13 +72,13 @@ std::optional<Offset> MeasureOffset(const std::vector<DepthPoint>& front, const 
   const auto middle = behind.begin() + static_cast<std::ptrdiff_t>(behind.size() / 2);
   std::nth_element(behind.begin(), middle, behind.end());
   const double independent = std::max(1.0, static_cast<double>(front.size()) / noise.window_points);
-  // A median has π/2 times a mean's variance.
+  // The variance of a median is π/2 times that of a mean.
   const double sigma_m =
       wall.sigma / (inverse_depth * inverse_depth) * std::sqrt(1.57 / independent);
   return Offset{*middle, sigma_m};
 }
 
-// Whether points that are not the wall's are in its plane.
+// Tells whether points outside the wall lie in its plane.
 bool AreInPlane(const std::vector<DepthPoint>& points, const DepthPlane& wall,
                 const DepthNoise& noise) {
   const auto offset = MeasureOffset(points, wall, noise);
@@ -115,7 +121,7 @@ bool StandsBefore(const FrameDepth& depth, const DepthPlane& wall) {
   return before >= kLeastOff && before > kLeastBefore * (depth.border_pixels + depth.inside_pixels);
 }
 
-// What is seen of a frame's front.
+// Depth of a frame's front.
 struct Front {
   bool is_whole = false;
   std::optional<Offset> offset;
@@ -165,7 +171,7 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
     return Miss{"stands_before", "what is seen within the frame's edges is far before the wall"};
   }
   const Front seen = SeeFront(found.points, found.wall, settings.noise);
-  // What has wall within it is painted on it.
+  // A frame with wall within it is painted on the wall.
   const bool is_painted = opening_is_in_plane && settings.setback_m == 0.0;
   found.setback_sigma_m = is_painted ? 0.0 : settings.setback_sigma_m;
   double fitted_sigma_m = settings.fits_setback ? found.setback_sigma_m : 0.0;
@@ -192,6 +198,49 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
                                      settings.noise, kLeastFront);
   if (own) found.planes.push_back({.m = own->m, .information = own->information, .relief_m = 0.0});
   return found;
+}
+
+FrameRectangle SetBack(const FrameRectangle& frame, const Eigen::Vector3d& p_LC, double by_m) {
+  const double distance_m = -frame.R_LO.col(2).dot(frame.p_LO - p_LC);
+  const double factor = (distance_m + by_m) / distance_m;
+  FrameRectangle moved = frame;
+  moved.p_LO = p_LC + factor * (frame.p_LO - p_LC);
+  moved.width_m *= factor;
+  moved.height_m *= factor;
+  moved.border_m *= factor;
+  return moved;
+}
+
+FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3d& p_LC,
+                               double setback_m) {
+  FrameRectangle moved = frame;
+  if (!(setback_m > 0.0)) return moved;
+  const Eigen::Vector3d p_OC = frame.R_LO.transpose() * (p_LC - frame.p_LO);
+  const double share = setback_m / p_OC.z();  // Share of the way from the front to the camera.
+  std::array<double, 4> reach_m = {};         // Distance of each side from the middle.
+  for (size_t i = 0; i < 4; ++i) {
+    const double sign = i < 2 ? 1.0 : -1.0;  // Top and right; bottom and left.
+    const bool level = i % 2 == 0;
+    const double at_m = 0.5 * (level ? frame.height_m : frame.width_m);
+    const double camera_m = sign * (level ? p_OC.y() : p_OC.x());
+    const bool is_hidden = camera_m > at_m;
+    reach_m[i] = is_hidden ? at_m + share * (camera_m - at_m) : at_m;
+    moved.outer_relief_m[i] = is_hidden ? setback_m : 0.0;
+  }
+  moved.height_m = reach_m[0] + reach_m[2];
+  moved.width_m = reach_m[1] + reach_m[3];
+  moved.p_LO += 0.5 * (reach_m[1] - reach_m[3]) * frame.R_LO.col(0) +
+                0.5 * (reach_m[0] - reach_m[2]) * frame.R_LO.col(1);
+  return moved;
+}
+
+void AddSetback(const CameraView& view, bool is_fitted, const FramePlanes& planes, FrameFit& fit) {
+  const double depth_m = std::max(std::abs(planes.setback_m), planes.setback_sigma_m);
+  if (!(depth_m > 0.0)) return;
+  AddParallax(std::span(&view, 1), {.upright_m = depth_m, .level_m = depth_m}, fit);
+  if (is_fitted || planes.planes.size() > 1) return;
+  const Eigen::Vector3d off = planes.setback_sigma_m * fit.adjustment.frame.R_LO.col(2);
+  fit.adjustment.covariance.block<3, 3>(3, 3) += off * off.transpose();
 }
 
 }  // namespace fenestra

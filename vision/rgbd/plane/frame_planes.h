@@ -6,6 +6,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "vision/frame/adjustment/frame_adjustment.h"
+#include "vision/frame/adjustment/frame_fit.h"
 #include "vision/rgbd/plane/depth_around_frame.h"
 #include "vision/rgbd/plane/depth_plane.h"
 
@@ -47,5 +48,19 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
                                                    const FrameRectangle& frame,
                                                    const DepthPlane& wall, const CameraModel& depth,
                                                    const FramePlaneSettings& settings);
+
+/// Moves a frame `by_m` farther behind the wall and scales it so that a camera at p_LC sees it
+/// unchanged.
+FrameRectangle SetBack(const FrameRectangle& frame, const Eigen::Vector3d& p_LC, double by_m);
+
+/// Corrects a frame for which all sides were assumed to be seen in the plane of its front. Sides
+/// that the reveal hides from a camera at p_LC are moved to the edge that is seen instead, the edge
+/// of the wall's face `setback_m` in front of the frame.
+FrameRectangle WithHiddenSides(const FrameRectangle& frame, const Eigen::Vector3d& p_LC,
+                               double setback_m);
+
+/// Adds the uncertainty of the setback to the covariance of a frame's centroid: along the normal,
+/// unless the fit contains it, and across it.
+void AddSetback(const CameraView& view, bool is_fitted, const FramePlanes& planes, FrameFit& fit);
 
 }  // namespace fenestra

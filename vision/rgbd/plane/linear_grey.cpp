@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kBright_dn = 200.0;
 constexpr double kBrightShare = 0.98;
-constexpr int kUnits = 5461;  // Of a channel; three of them fill 14 bits.
+constexpr int kUnits = 5461;  // Largest value of a channel; the sum of three fills 14 bits.
 constexpr int kSums = 3 * kUnits + 1;
 
 std::array<int, 256> MakeTable() {

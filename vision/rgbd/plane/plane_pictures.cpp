@@ -1,6 +1,6 @@
 #include "vision/rgbd/plane/plane_pictures.h"
 
-#include "vision/rgbd/depth_picture.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 

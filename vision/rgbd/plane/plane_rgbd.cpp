@@ -10,23 +10,23 @@
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
-#include "vision/rgbd/observation_check.h"
 #include "vision/rgbd/plane/frame_paint.h"
 #include "vision/rgbd/plane/frame_planes.h"
-#include "vision/rgbd/plane/hidden_sides.h"
 #include "vision/rgbd/plane/linear_grey.h"
 #include "vision/rgbd/plane/plane_pictures.h"
-#include "vision/rgbd/undistortion.h"
+#include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
 namespace {
 
-// Half a depth pixel's window, and a pixel for the place of its evidence.
+// Half of a depth pixel's matching block, and a pixel for the uncertainty of the place that
+// dominates the match.
 constexpr double kClearWindows = 0.5;
 constexpr double kClear_px = 1.0;
 constexpr double kLeastOfColor = 0.5;
-// A frame is of one paint: of its sides' grey values, the brightest over the darkest, above what
-// noise and blur leave of black. Light on a wall hardly differs by so much within a window.
+// Largest ratio of the grey values of a frame's brightest and darkest sides, above what noise and
+// blur leave of black. A frame has one paint, and the light on a wall hardly varies by so much
+// within a window.
 constexpr double kMostUneven = 4.0;
 constexpr double kBlack_dn = 8.0;
 
@@ -130,7 +130,7 @@ Detection PlaneRgbdDetector::Detect(const Observation& observation, StageLog& lo
 std::variant<std::vector<PlaneSeed>, Miss> PlaneRgbdDetector::Seeds(
     const std::vector<DarkQuadrilateral>& candidates, const std::vector<DepthPoint>& points) const {
   if (candidates.empty()) return Miss{"no_quadrilateral", "no four edges around something dark"};
-  // The same angle in the colour image.
+  // The same angle as clear_px_, in pixels of the colour image.
   const double clear_px =
       clear_px_ * pinhole_.parameters().fx_px / calibration_.depth.parameters().fx_px;
   PlaneSeeds found = FindPlaneSeeds(
@@ -153,13 +153,13 @@ std::variant<std::vector<PlaneSeed>, Miss> PlaneRgbdDetector::Seeds(
 }
 
 std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
-    const Sight& sight, Candidate& candidate) const {
-  const CameraView& view = sight.view;
+    const Scene& scene, Candidate& candidate) const {
+  const CameraView& view = scene.view;
   FrameFit rough = candidate.rough;
   FrameRectangle& frame = rough.adjustment.frame;
   const auto border = FindBorder({&view, 1}, frame, fitting_.border);
   frame.border_m = border ? border->border_m : GuessedBorder(frame);
-  auto measured = MeasureFramePlanes(sight.points, frame, candidate.seed.wall, calibration_.depth,
+  auto measured = MeasureFramePlanes(scene.points, frame, candidate.seed.wall, calibration_.depth,
                                      {.noise = noise_,
                                       .clear_px = clear_px_,
                                       .setback_m = options_.setback_m,
@@ -179,35 +179,35 @@ std::variant<PlaneRgbdDetector::Finished, Miss> PlaneRgbdDetector::Finish(
   Finished finished{std::move(std::get<FrameFit>(result)), std::move(planes), {}};
   AddSetback(view, fitting_.size.has_value(), finished.planes, finished.fit);
   const FrameRectangle& fitted = finished.fit.adjustment.frame;
-  if (auto objection = Objection(sight, fitted)) return *objection;
+  if (auto objection = Objection(scene, fitted)) return *objection;
   finished.estimate = EstimateOf({&view, 1}, finished.fit, candidate.score, darkness_);
   return finished;
 }
 
-std::optional<Miss> PlaneRgbdDetector::Objection(const Sight& sight,
+std::optional<Miss> PlaneRgbdDetector::Objection(const Scene& scene,
                                                  const FrameRectangle& fitted) const {
   if (auto objection = ObjectionToFrame(fitted, limits_)) return objection;
   if (auto objection =
-          ObjectionToClarity({&sight.view, 1}, fitted, darkness_, options_.search.min_darkness)) {
+          ObjectionToClarity({&scene.view, 1}, fitted, darkness_, options_.search.min_darkness)) {
     return objection;
   }
-  const double uneven = BrightestOverDarkestSide(sight.view, fitted, kBlack_dn);
+  const double uneven = BrightestOverDarkestSide(scene.view, fitted, kBlack_dn);
   if (uneven > kMostUneven) {
     return Miss{"uneven_border", fmt::format("one side of the frame is {:.1f} times as bright as "
                                              "another, {:.1f} are allowed",
                                              uneven, kMostUneven)};
   }
   if (!options_.prior.knows_color()) return std::nullopt;
-  const double share = ShareOfColor(sight.view, fitted, options_.prior, sight.images.color);
+  const double share = ShareOfColor(scene.view, fitted, options_.prior, scene.images.color);
   if (share >= kLeastOfColor) return std::nullopt;
   return Miss{"unexpected_color", fmt::format("only {:.0f} % of the frame has its colour, {:.0f} % "
                                               "are needed",
                                               100.0 * share, 100.0 * kLeastOfColor)};
 }
 
-Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<PlaneSeed>& seeds,
+Detection PlaneRgbdDetector::FitBest(const Scene& scene, const std::vector<PlaneSeed>& seeds,
                                      StageLog& log) const {
-  const CameraView& view = sight.view;
+  const CameraView& view = scene.view;
   const std::span<const CameraView> views(&view, 1);
   std::optional<Miss> objection;
   std::vector<Candidate> candidates;
@@ -226,7 +226,7 @@ Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<Plane
     candidates.push_back({seed, std::move(fitter), std::move(*rough), score});
   }
   const BestFits best = FinishBest(std::move(candidates), options_.search.most_windows,
-                                   [&](Candidate& candidate) { return Finish(sight, candidate); });
+                                   [&](Candidate& candidate) { return Finish(scene, candidate); });
   if (!objection) objection = best.objection;
   if (best.found.empty()) {
     return objection.value_or(Miss{"no_edges", "too few edge points to fix a rectangle"});
@@ -235,7 +235,7 @@ Detection PlaneRgbdDetector::FitBest(const Sight& sight, const std::vector<Plane
   const Finished& chosen = best.found.front();
   log.Picture("edge_points", [&] { return DrawEdgePoints(views, chosen.fit); },
               {PictureView{view.camera, view.X_CL}});
-  log.Picture("depth_use", [&] { return DrawDepthUse(sight.images.depth, chosen.planes, reader_); },
+  log.Picture("depth_use", [&] { return DrawDepthUse(scene.images.depth, chosen.planes, reader_); },
               {PictureView{calibration_.depth, Pose()}});
   return best.Chosen();
 }

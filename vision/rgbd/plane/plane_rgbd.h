@@ -55,14 +55,14 @@ class PlaneRgbdDetector : public Detector {
   std::variant<std::vector<PlaneSeed>, Miss> Seeds(const std::vector<DarkQuadrilateral>& candidates,
                                                    const std::vector<DepthPoint>& points) const;
   /// The data of one observation that the fit needs.
-  struct Sight {
+  struct Scene {
     const RgbdObservation& images;
     const CameraView& view;
     const std::vector<DepthPoint>& points;
   };
-  Detection FitBest(const Sight& sight, const std::vector<PlaneSeed>& seeds, StageLog& log) const;
-  std::variant<Finished, Miss> Finish(const Sight& sight, Candidate& candidate) const;
-  std::optional<Miss> Objection(const Sight& sight, const FrameRectangle& fitted) const;
+  Detection FitBest(const Scene& scene, const std::vector<PlaneSeed>& seeds, StageLog& log) const;
+  std::variant<Finished, Miss> Finish(const Scene& scene, Candidate& candidate) const;
+  std::optional<Miss> Objection(const Scene& scene, const FrameRectangle& fitted) const;
 
   PlaneRgbdOptions options_;
   RgbdCalibration calibration_;

@@ -11,17 +11,17 @@ using Table = ParameterTable<Options>;
 void AddDepth(Table& table) {
   table
       .Number("depth_noise_per_m", FENESTRA_FIELD(depth_noise_per_m), {1e-9, 1.0},
-              "usual standard deviation of a pixel's inverse depth (1/m)")
+              "Typical standard deviation of a pixel's inverse depth (1/m).")
       .Number("depth_step_per_m", FENESTRA_FIELD(depth_step_per_m), {0.0, 1.0},
-              "quantum of the inverse depth (1/m); 0: none")
+              "Quantum of the inverse depth (1/m); 0: none.")
       .Number("depth_window_px", FENESTRA_FIELD(depth_window_px), {1.0, 100.0},
-              "window in which a depth pixel was matched, in pixels of a 640-wide image")
+              "Block with which a depth pixel was matched, in pixels of a 640-wide image.")
       .Number("depth_to_m", FENESTRA_FIELD(depth_to_m), {0.0, 1000.0},
-              "largest depth that the sensor gives; 0: no limit")
+              "Largest depth that the sensor reports; 0: no limit.")
       .Number("setback_m", FENESTRA_FIELD(setback_m), {-10.0, 10.0},
-              "frame's front behind the wall around it")
+              "Distance of the frame's front behind the surrounding wall.")
       .Number("setback_sigma_m", FENESTRA_FIELD(setback_sigma_m), {0.0, 10.0},
-              "standard deviation of that knowledge");
+              "Standard deviation of setback_m.");
 }
 
 }  // namespace

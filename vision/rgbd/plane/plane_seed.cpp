@@ -1,16 +1,16 @@
 #include "vision/rgbd/plane/plane_seed.h"
 
 #include "vision/rgbd/plane/depth_around_frame.h"
-#include "vision/rgbd/plane/hidden_sides.h"
+#include "vision/rgbd/plane/frame_planes.h"
 
 namespace fenestra {
 namespace {
 
 constexpr int kLeastPoints = 40;
-constexpr double kLeastShare = 0.4;  // Of them, on the plane.
+constexpr double kLeastShare = 0.4;  // Least share of them on the plane.
 constexpr uint64_t kSampleSeed = 1;  // The same samples for every image.
 
-// Of the points around a quadrilateral one in two is enough to find their plane.
+// Half of the points around a quadrilateral are enough to find their plane.
 std::vector<DepthPoint> EverySecondRow(const std::vector<DepthPoint>& points) {
   std::vector<DepthPoint> rows;
   rows.reserve(points.size());

@@ -2,19 +2,23 @@
 
 #include <fmt/format.h>
 
+#include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
-#include "vision/stereo/rectified_pictures.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 namespace {
 
-// Of the outer sides' contrast. Between frame and opening there is little, in front of a dark room;
-// but all of their length counts.
+using Options = EdgeStereoOptions;
+using Table = ParameterTable<Options>;
+
+// Least contrast of the inner sides relative to the outer ones. There is little contrast between
+// frame and opening in front of a dark room, but the mean is over the whole length of the sides.
 constexpr double kInnerContrast = 0.4;
-constexpr double kOpening = 0.5;  // Of the places along the inner sides.
+constexpr double kOpening = 0.5;  // Least share of the places along the inner sides.
 constexpr double kLight = 0.9;    // See BrightBand.
 
 const StereoObservation& StereoPart(const Observation& observation) {
@@ -26,6 +30,28 @@ const StereoObservation& StereoPart(const Observation& observation) {
 }
 
 }  // namespace
+
+const Table& EdgeStereoParameters() {
+  static const Table table = [] {
+    Table made;
+    made.Number(
+        "rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
+        "Zoom of rectification: 0 keeps only what both sensors saw, 1 all that either saw.");
+    made.Adopt<FrameSearchOptions>(FrameSearchParameters(), FENESTRA_FIELD(search));
+    made.Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "Grey value without light.");
+    made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
+    return made;
+  }();
+  return table;
+}
+
+void Validate(const Options& options) {
+  Faults faults("edge-stereo");
+  faults.Add(EdgeStereoParameters().Objections(options));
+  faults.Add(FaultsOf(options.search));
+  faults.Add(FaultsOf(options.prior));
+  faults.ThrowIfAny();
+}
 
 EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                                        const EdgeStereoOptions& options)
@@ -147,7 +173,7 @@ std::optional<Miss> EdgeStereoDetector::Objection(std::span<const CameraView> vi
   if (auto objection = ObjectionToClarity(views, frame, darkness_, options_.search.min_darkness)) {
     return objection;
   }
-  // Without an opening of its own it is one: that of a light frame.
+  // A dark area without an opening of its own is the opening of a light frame.
   if (fit.inner_support < kOpening && BrightBand(views, frame, options_.black_dn) > kLight) {
     return Miss{"light_frame", "what surrounds it is lighter than the wall"};
   }

@@ -12,13 +12,13 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kLeastCommonRows = 0.4;
-constexpr double kLeastClarity = 0.3;  // Of that in the left image.
-// Of the depth: corners that are so near are the same.
+constexpr double kLeastClarity = 0.3;  // Relative to that in the left image.
+// Corners closer than this share of their depth are the same.
 constexpr double kSame = 0.012;
 
-// Level sides have the same rows in both views, as far as each knows them.
+// Horizontal sides have the same rows in both views, within their accuracy.
 constexpr double kSameRow_px = 1.5;
-constexpr double kLeastCommonColumns = 0.25;  // Of a level side.
+constexpr double kLeastCommonColumns = 0.25;  // Share of a horizontal side.
 
 double ColumnAt(const EdgeSegment& s, double v) {
   return s.from.x() + (v - s.from.y()) / (s.to.y() - s.from.y()) * (s.to.x() - s.from.x());
@@ -52,7 +52,7 @@ std::vector<const EdgeSegment*> UprightMatches(const Vector2d& upper, const Vect
   return matches;
 }
 
-// nullptr alone if there is none.
+// Contains only nullptr if there is none.
 std::vector<const EdgeSegment*> LevelMatches(const Vector2d& left, const Vector2d& right,
                                              const std::vector<EdgeSegment>& candidates) {
   std::vector<const EdgeSegment*> matches;
@@ -73,7 +73,7 @@ double LengthOf(const EdgeSegment* s) {
   return s == nullptr ? 0.0 : s->Length();
 }
 
-// Edges of the right image, by side; no edge where it has no such level one.
+// The chosen edges of the right image for each side; nullptr for a horizontal side without one.
 using RightEdges = std::array<const EdgeSegment*, 4>;
 
 Quadrilateral RightCorners(const Quadrilateral& left, const RightEdges& edges) {
@@ -91,7 +91,7 @@ FrameSeed SeedOf(const Quadrilateral& left, const Quadrilateral& right,
                  const RectifiedCamera& camera) {
   FrameSeed seed;
   for (size_t i = 0; i < 4; ++i) {
-    const size_t other = 3 - i;  // The upright side's other end.
+    const size_t other = 3 - i;  // The other end of the vertical side.
     const double v = 0.5 * (left[i].y() + right[i].y());
     const double u_left = ColumnAt({left[i], left[other], 0.0}, v);
     const double disparity_px = u_left - ColumnAt({right[i], right[other], 0.0}, v);

@@ -7,7 +7,7 @@
 #include "vision/frame/detection/edge_segment.h"
 #include "vision/frame/model/frame_limits.h"
 #include "vision/frame/model/frame_rectangle.h"
-#include "vision/stereo/rectified_camera.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 

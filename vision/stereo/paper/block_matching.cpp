@@ -9,7 +9,7 @@ namespace fenestra {
 namespace {
 
 constexpr int kSubpixels = cv::StereoMatcher::DISP_SCALE;
-// Larger sums would not fit the 16 bits of cv::StereoBM's fast path; it is also its default.
+// The default of cv::StereoBM. With a larger cap, sums would not fit the 16 bits of its fast path.
 constexpr int kPreFilterCap = 31;
 
 // cv::StereoBM searches a multiple of 16 disparities.
@@ -19,7 +19,7 @@ int SearchedDisparities(const BlockMatchingSettings& settings) {
 }
 
 cv::Ptr<cv::StereoBM> MakeMatcher(const BlockMatchingSettings& settings) {
-  // A new one each time: it owns buffers, and detectors are used by many threads.
+  // Makes a new matcher each time, since it owns buffers and detectors are used by many threads.
   auto matcher = cv::StereoBM::create(SearchedDisparities(settings), settings.window_px);
   matcher->setMinDisparity(settings.farthest_disparity_px);
   matcher->setPreFilterType(cv::StereoBM::PREFILTER_XSOBEL);

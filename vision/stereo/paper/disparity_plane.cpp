@@ -10,11 +10,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Both loops settle well before these counts; the last change is then below 1e-4 px.
+// Both loops converge well before these counts, to a last change below 1e-4 px.
 constexpr int kAbsoluteIterations = 12;
 constexpr int kTukeyIterations = 8;
-// Keeps the weights 1/|r| of least absolute deviations finite: a sixteenth of a pixel is the
-// resolution of the matcher, below which residuals mean nothing.
+// Keeps the weights 1/|r| of least absolute deviations finite. Residuals below the matcher's
+// resolution of a sixteenth of a pixel are meaningless.
 constexpr double kSmallestResidual_px = 1.0 / 16.0;
 
 // Pixels are centred and scaled so that the normal equations are well conditioned.
@@ -49,7 +49,7 @@ Centring Centre(const std::vector<DisparitySample>& samples) {
   return centring;
 }
 
-// The normal equations with weights w(r) of the residuals to the solution `before`.
+// Solves the normal equations with weights w(r) of the residuals of the solution `before`.
 template <typename Weight>
 std::optional<Vector3d> FitWeighted(const std::vector<DisparitySample>& samples,
                                     const Centring& centring, const Vector3d& before,

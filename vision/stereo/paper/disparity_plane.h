@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vision/stereo/rectified_camera.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 

@@ -11,13 +11,13 @@
 namespace fenestra {
 namespace {
 
-constexpr int kProbes = 32;  // Along a side, and across the opening.
+constexpr int kProbes = 32;  // Number of probes along a side and across the opening.
 // The opening that must be clear: the middle of the frame, so that its border may be up to 30 %
 // of its side wide.
 constexpr double kOpeningFrom = 0.3;
 constexpr double kOpeningTo = 0.7;
 
-// How exactly sides are measured, before and after what the SAD window adds is taken off.
+// Accuracy of the sides before and after the fattening by the SAD block is undone.
 constexpr double kSideShare = 0.2;
 
 // One or two patches.
@@ -56,7 +56,8 @@ double RowOverlap(const cv::Rect& a, const cv::Rect& b) {
   return std::max(0, common) / static_cast<double>(either);
 }
 
-// Share of the side (s = 0 left, 1 right) with a match on the plane within a window's width.
+// Share of a vertical side (s = 0 left, 1 right) with a match on the plane within the width of a
+// SAD block.
 double SideSupport(const Quadrilateral& q, double s, int window_px, const DisparityProbe& probe) {
   int matched = 0;
   for (int i = 0; i < kProbes; ++i) {
@@ -68,7 +69,7 @@ double SideSupport(const Quadrilateral& q, double s, int window_px, const Dispar
 }
 
 double FilledOpeningRows(const Quadrilateral& q, int window_px, const DisparityProbe& probe) {
-  const int fat_px = window_px / 2;  // By which the border reaches into the opening.
+  const int fat_px = window_px / 2;  // How far the fattened border extends into the opening.
   int filled = 0;
   for (int i = 0; i < kProbes; ++i) {
     const double t = kOpeningFrom + (kOpeningTo - kOpeningFrom) * (i + 0.5) / kProbes;
@@ -93,7 +94,7 @@ std::optional<FrameHypothesis> Outline(const Group& group) {
   return hypothesis;
 }
 
-// Fits the plane; false if it does not hold the patches.
+// Fits the plane; returns false if the patches do not lie on it.
 bool FitPlane(FrameHypothesis& hypothesis, const FrameCriteria& criteria) {
   std::vector<DisparitySample> samples;
   for (const MatchedPatch* patch : hypothesis.patches) {
@@ -106,7 +107,7 @@ bool FitPlane(FrameHypothesis& hypothesis, const FrameCriteria& criteria) {
   return true;
 }
 
-// Judges a hypothesis whose score so far is the share of its matches on its plane.
+// Evaluates a hypothesis whose score so far is the share of its matches on its plane.
 std::optional<Miss> Judge(FrameHypothesis& hypothesis, const cv::Mat1f& disparity,
                           const RectifiedCamera& camera, const FrameCriteria& criteria) {
   const Quadrilateral& q = hypothesis.corners_px;
@@ -134,7 +135,7 @@ std::optional<Miss> Judge(FrameHypothesis& hypothesis, const cv::Mat1f& disparit
   return std::nullopt;
 }
 
-// Hypotheses by one or two patches without their planes, the largest in the image first.
+// Hypotheses of one or two patches, without planes yet, the largest in the image first.
 std::vector<FrameHypothesis> Outlines(const std::vector<Group>& groups) {
   std::vector<FrameHypothesis> outlines;
   for (const Group& group : groups) {

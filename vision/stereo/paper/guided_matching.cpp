@@ -6,11 +6,11 @@
 namespace fenestra {
 namespace {
 
-// A frame's far side must stay within reach of its near side. A frame of width s at distance z that
-// is turned by 25° changes in depth by s sin 25° from side to side: 21 % of z for z = 2 s, less
-// farther away.
+// A frame's far side must be within reach of its near side. The depth of a frame of width s that is
+// turned by 25° differs by s sin 25° between its sides: 21 % of the distance z for z = 2 s, and
+// less farther away.
 constexpr double kReach = 0.25;
-// One frame is looked for; a second chance for a scene where something taller stands elsewhere.
+// One search is for the frame, the second for scenes with a taller object elsewhere.
 constexpr int kMostSearches = 2;
 
 float MedianDisparity(const MatchedPatch& patch) {
@@ -21,7 +21,7 @@ float MedianDisparity(const MatchedPatch& patch) {
   return *middle;
 }
 
-// Whether most of a patch was found again at another disparity: it was a double.
+// Tells whether most of a patch was found again at another disparity, i.e. was a double.
 bool IsExplained(const MatchedPatch& patch, const cv::Mat1b& open) {
   const auto closed =
       std::count_if(patch.samples.begin(), patch.samples.end(), [&open](const DisparitySample& s) {
@@ -58,7 +58,8 @@ std::optional<cv::Mat1f> MatchAgainNearPatches(
   std::stable_sort(tallest.begin(), tallest.end(),
                    [](const auto* p, const auto* q) { return p->box.height > q->box.height; });
   cv::Mat1f result;
-  // A double may be tall enough to be searched for, too: what the taller patch explained stays.
+  // A double may be tall enough to be searched for as well, so pixels that a taller patch explained
+  // are kept.
   cv::Mat1b open(disparity.size(), 255);
   std::vector<float> searched;
   for (const MatchedPatch* patch : tallest) {

@@ -9,16 +9,17 @@
 namespace fenestra {
 namespace {
 
-// More patches than this are texture, not a frame on a wall; it bounds the pairs to be tried.
+// More patches than this are texture rather than a frame on a wall. The limit bounds the number of
+// pairs that are tried.
 constexpr size_t kMostPatches = 16;
-// Matches a window apart are hardly correlated, so more samples would not make planes better.
+// Only matches a block apart are nearly uncorrelated, so more samples would not improve the planes.
 constexpr int kSamplesPerPatch = 200;
 
 cv::Mat Block(int width, int height) {
   return cv::getStructuringElement(cv::MORPH_RECT, {width, height});
 }
 
-// Disparities between which others leave a gap of more than `step_px`: the upper ends of all
+// Splits disparities where they leave a gap of more than `step_px`. Returns the upper ends of all
 // clusters but the last, in ascending order.
 std::vector<float> ClusterEnds(std::vector<float> disparities, double step_px) {
   std::sort(disparities.begin(), disparities.end());
@@ -39,7 +40,7 @@ std::vector<float> ValuesOf(const cv::Mat1f& disparity, const cv::Mat1b& mask) {
   return values;
 }
 
-// `usable`: the patch's pixels within `box`; at least one.
+// `usable` marks the patch's pixels within `box`, at least one.
 MatchedPatch DescribePatch(const cv::Mat1b& usable, const cv::Rect& box,
                            const cv::Mat1f& disparity) {
   std::vector<cv::Point> pixels;
@@ -50,7 +51,8 @@ MatchedPatch DescribePatch(const cv::Mat1b& usable, const cv::Rect& box,
                      .hull = {},
                      .samples = {}};
   cv::convexHull(pixels, patch.hull);
-  // A grid, since every n-th pixel of a region n - 1 or n + 1 pixels wide is a slanted line.
+  // Samples lie on a grid, since every n-th pixel of a region n - 1 or n + 1 pixels wide would be a
+  // slanted line.
   const int step = std::max(
       1, static_cast<int>(std::sqrt(patch.area_px / static_cast<double>(kSamplesPerPatch))));
   for (const cv::Point& pixel : pixels) {
@@ -80,8 +82,8 @@ std::vector<MatchedPatch> SplitByDisparity(const cv::Mat1b& usable, const cv::Re
   return patches;
 }
 
-// The box of all matched pixels with a rim without matches, wide enough for the morphology to see
-// what it would see in the whole image.
+// The box of all matched pixels with an empty rim that is wide enough for the morphology to give
+// the same result as in the whole image.
 cv::Rect MatchedRegion(const cv::Mat1f& disparity, const PatchSettings& settings) {
   const cv::Rect box = cv::boundingRect(cv::Mat1b(disparity > 0.0f));
   if (box.empty()) return {};
@@ -102,7 +104,7 @@ void Move(const cv::Point& by, MatchedPatch& patch) {
 }  // namespace
 
 std::vector<MatchedPatch> FindPatches(const cv::Mat1f& whole, const PatchSettings& settings) {
-  // Most of a wall has no matches, and what is empty needs no morphology.
+  // Most of a wall has no matches, and empty areas need no morphology.
   const cv::Rect region = MatchedRegion(whole, settings);
   if (region.empty()) return {};
   const cv::Mat1f disparity = whole(region);

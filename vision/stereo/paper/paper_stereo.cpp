@@ -9,11 +9,10 @@
 #include "core/io/input_error.h"
 #include "vision/frame/detection/darkness.h"
 #include "vision/stereo/paper/closed_contour.h"
-#include "vision/stereo/paper/depth_image.h"
 #include "vision/stereo/paper/guided_matching.h"
 #include "vision/stereo/paper/stage_pictures.h"
 #include "vision/stereo/paper/window_rectangle.h"
-#include "vision/stereo/rectified_pictures.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 namespace {
@@ -47,7 +46,7 @@ const StereoObservation& StereoPart(const Observation& observation) {
 
 BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
                                        const RectifiedCamera& camera, int width_px) {
-  // A disparity of the image's width or more has nothing to match.
+  // A disparity of at least the image's width leaves nothing to match.
   const auto limited = [width_px](double d) { return std::clamp(d, 0.0, width_px - 1.0); };
   return {.window_px = options.sad_window_px,
           .nearest_disparity_px =

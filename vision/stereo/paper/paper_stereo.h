@@ -3,10 +3,10 @@
 #include "core/detection/detector.h"
 #include "core/geometry/calibration.h"
 #include "vision/stereo/paper/block_matching.h"
-#include "vision/stereo/paper/depth_image.h"
+#include "vision/stereo/paper/closed_contour.h"
 #include "vision/stereo/paper/frame_hypothesis.h"
 #include "vision/stereo/paper/paper_stereo_options.h"
-#include "vision/stereo/paper/window_covariance.h"
+#include "vision/stereo/paper/window_rectangle.h"
 #include "vision/stereo/rectification.h"
 
 namespace fenestra {

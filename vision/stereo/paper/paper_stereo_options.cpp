@@ -12,72 +12,72 @@ using Table = ParameterTable<Options>;
 void AddMatching(Table& table) {
   table
       .Number("rectification_alpha", FENESTRA_FIELD(rectification_alpha), {0.0, 1.0},
-              "0 shows only what both sensors saw, 1 all that either saw")
+              "Zoom of rectification: 0 keeps only what both sensors saw, 1 all that either saw.")
       .Number("nearest_m", FENESTRA_FIELD(nearest_m), {0.1, 1000.0},
-              "smallest depth that is searched")
+              "Smallest depth that is searched.")
       .Number("farthest_m", FENESTRA_FIELD(farthest_m), {0.1, 1000.0},
-              "largest depth that is searched")
+              "Largest depth that is searched.")
       .Integer("sad_window_px", FENESTRA_FIELD(sad_window_px), {5, 51},
-               "side of the SAD window; odd")
+               "Side of the SAD block; odd.")
       .Integer("uniqueness_percent", FENESTRA_FIELD(uniqueness_percent), {0, 100},
-               "by how much the best match must beat all others")
+               "Margin by which the best match must beat all others.")
       .Integer("texture_threshold", FENESTRA_FIELD(texture_threshold), {0, 32000},
-               "least contrast within the SAD window, summed")
+               "Least contrast, summed over the SAD block.")
       .Integer("speckle_area_px", FENESTRA_FIELD(speckle_area_px), {0, 100000},
-               "smaller patches of disparity are dropped; 0 keeps all")
+               "Smallest patch of disparities that is kept; 0 keeps all.")
       .Number("speckle_step_px", FENESTRA_FIELD(speckle_step_px), {0.0625, 64.0},
-              "disparity step at which a patch ends")
+              "Disparity step at which a patch ends.")
       .Switch("left_right_check", FENESTRA_FIELD(left_right_check),
-              "drop matches that are not mutual")
+              "Whether matches that are not mutual are dropped.")
       .Switch("guided_search", FENESTRA_FIELD(guided_search),
-              "where no frame is found, search again near the first matches");
+              "Whether to search again near the first matches if they contain no frame.");
 }
 
 void AddGapClosing(Table& table) {
   table
       .Integer("opening_px", FENESTRA_FIELD(opening_px), {1, 51},
-               "matched regions thinner than this are dropped")
+               "Least thickness of matched regions; thinner ones are dropped.")
       .Integer("gap_height_px", FENESTRA_FIELD(gap_height_px), {1, 201},
-               "gaps in a vertical edge that are closed")
+               "Largest gap in a vertical edge that is closed.")
       .Integer("gap_width_px", FENESTRA_FIELD(gap_width_px), {1, 201},
-               "gaps between edges side by side that are closed")
+               "Largest gap between adjacent edges that is closed.")
       .Integer("min_band_height_px", FENESTRA_FIELD(min_band_height_px), {3, 16384},
-               "lower patches are no side of a frame")
+               "Least height of a patch that may be a side of a frame.")
       .Number("plane_tolerance_px", FENESTRA_FIELD(plane_tolerance_px), {0.0625, 16.0},
-              "largest departure of a match from the frame's plane, in disparity")
+              "Largest departure of a match from the frame's plane, in disparity.")
       .Number("min_inlier_share", FENESTRA_FIELD(min_inlier_share), {0.0, 1.0},
-              "least share of a frame's matches on its plane")
+              "Least share of a frame's matches on its plane.")
       .Number("min_row_overlap", FENESTRA_FIELD(min_row_overlap), {0.0, 1.0},
-              "least overlap of the rows of both sides")
+              "Least overlap of the rows of both sides.")
       .Number("min_side_support", FENESTRA_FIELD(min_side_support), {0.0, 1.0},
-              "least share of a vertical side that is matched")
+              "Least matched share of a vertical side.")
       .Number("max_opening_rows", FENESTRA_FIELD(max_opening_rows), {0.0, 1.0},
-              "largest share of the opening's rows with matches in the frame's plane");
+              "Largest share of the opening's rows with matches in the frame's plane.");
 }
 
 void AddShape(Table& table) {
-  table.Number("min_side_m", FENESTRA_FIELD(min_side_m), {0.01, 1000.0}, "smallest window side")
-      .Number("max_side_m", FENESTRA_FIELD(max_side_m), {0.01, 1000.0}, "largest window side")
+  table.Number("min_side_m", FENESTRA_FIELD(min_side_m), {0.01, 1000.0}, "Smallest window side.")
+      .Number("max_side_m", FENESTRA_FIELD(max_side_m), {0.01, 1000.0}, "Largest window side.")
       .Number("max_side_ratio", FENESTRA_FIELD(max_side_ratio), {1.0, 100.0},
-              "longest side over shortest side")
+              "Largest ratio of the longest side to the shortest.")
       .Number("max_skew_deg", FENESTRA_FIELD(max_skew_rad), {0.0, 90.0, kDegree},
-              "departure of a corner from a right angle")
+              "Largest departure of a corner from a right angle.")
       .Number("max_taper", FENESTRA_FIELD(max_taper), {0.0, 2.0},
-              "relative difference of opposite sides")
+              "Largest relative difference of opposite sides.")
       .Number("canny_low_dn", FENESTRA_FIELD(canny_low_dn), {1.0, 1020.0},
-              "hysteresis: weakest edge that continues a stronger one")
+              "Lower threshold of Canny's hysteresis: weakest edge that continues a stronger one.")
       .Number("canny_high_dn", FENESTRA_FIELD(canny_high_dn), {1.0, 1020.0},
-              "hysteresis: weakest edge that begins a contour")
+              "Upper threshold of Canny's hysteresis: weakest edge that begins a contour.")
       .Integer("most_windows", FENESTRA_FIELD(most_windows), {1.0, 100.0},
-               "windows that are reported, the best first")
+               "Most windows that are reported, the best first.")
       .Number("subpixel_bias_px", FENESTRA_FIELD(subpixel_bias_px), {0.0, 2.0},
-              "standard deviation of the disparity of a whole side, for the covariance")
+              "Standard deviation of the disparity of a whole side, for the covariance.")
       .Number("contour_sigma_px", FENESTRA_FIELD(contour_sigma_px), {0.0, 50.0},
-              "standard deviation of a contour's side, for the covariance")
+              "Standard deviation of a contour's side, for the covariance.")
       .Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0},
-              "grey value without light, for expected_grey_ratio")
+              "Grey value without light, for expected_grey_ratio.")
       .Switch("undo_fattening", FENESTRA_FIELD(undo_fattening),
-              "move the contour in by half a SAD window");
+              "Whether the contour is moved inwards by half a SAD block.");
 }
 
 }  // namespace

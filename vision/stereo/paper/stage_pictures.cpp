@@ -7,7 +7,7 @@
 namespace fenestra {
 
 cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range) {
-  // Equal steps of 1/z, as they are equal steps of disparity.
+  // Equal steps of colour are equal steps of 1/z, and so of disparity.
   cv::Mat1f inverse;
   cv::divide(1.0, depth_m, inverse);
   const double far = 1.0 / range.farthest_m;

@@ -2,7 +2,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "vision/stereo/paper/depth_image.h"
+#include "vision/stereo/paper/closed_contour.h"
 
 namespace fenestra {
 

@@ -1,4 +1,4 @@
-#include "vision/frame/setback/front_belief.h"
+#include "vision/frame/setback/frame_setback.h"
 
 #include <gtest/gtest.h>
 
@@ -8,40 +8,40 @@ namespace fenestra {
 namespace {
 
 TEST(FrontBelief, OneExactSightOfTheFrontTellsIt) {
-  const FrontBelief belief = BelieveFront({{0.08, 0.001, false}}, 0.5);
+  const SetbackPosterior posterior = InferSetback({{0.08, 0.001, false}}, 0.5);
   // Densities over 40 cm of sights and 20 cm of setbacks: of something else 0.05/0.4 whatever the
   // setback is, of the front 0.95/0.2 in all.
   const double other = 0.05 / 0.4;
   const double front = 0.95 / 0.2;
   const double sum = 2.0 * other + front;
-  EXPECT_NEAR(belief.flush, other / sum, 1e-3);
-  EXPECT_NEAR(belief.setback.mean_m, (front * 0.08 + other * 0.1) / sum, 1e-4);
+  EXPECT_NEAR(posterior.flush, other / sum, 1e-3);
+  EXPECT_NEAR(posterior.setback.mean_m, (front * 0.08 + other * 0.1) / sum, 1e-4);
 }
 
 TEST(FrontBelief, WithoutSightsItIsWhatItWasBefore) {
-  const FrontBelief belief = BelieveFront({}, 0.3);
-  EXPECT_NEAR(belief.flush, 0.3, 1e-12);
+  const SetbackPosterior posterior = InferSetback({}, 0.3);
+  EXPECT_NEAR(posterior.flush, 0.3, 1e-12);
   // Evenly from 0 to 20 cm with the rest: means of s and s².
-  EXPECT_NEAR(belief.setback.mean_m, 0.7 * 0.1, 1e-9);
-  EXPECT_NEAR(belief.root_mean_square_m, std::sqrt(0.7 * 0.04 / 3.0), 1e-5);
+  EXPECT_NEAR(posterior.setback.mean_m, 0.7 * 0.1, 1e-9);
+  EXPECT_NEAR(posterior.root_mean_square_m, std::sqrt(0.7 * 0.04 / 3.0), 1e-5);
 }
 
 TEST(FrontBelief, AnEdgeOfTheThicknessIsBehindTheFront) {
-  const FrontBelief front = BelieveFront({{0.10, 0.002, false}}, 0.0);
-  const FrontBelief thickness = BelieveFront({{0.10, 0.002, true}}, 0.0);
+  const SetbackPosterior front = InferSetback({{0.10, 0.002, false}}, 0.0);
+  const SetbackPosterior thickness = InferSetback({{0.10, 0.002, true}}, 0.0);
   // In the mean half of 12 cm; what is of something else shares in both.
   EXPECT_NEAR(front.setback.mean_m - thickness.setback.mean_m, 0.06, 0.005);
   EXPECT_GT(thickness.setback.sigma_m, front.setback.sigma_m);
   // Both edges of it share one thickness: two sights of it are no two opinions of it.
-  const FrontBelief twice = BelieveFront({{0.10, 0.002, true}, {0.10, 0.002, true}}, 0.0);
+  const SetbackPosterior twice = InferSetback({{0.10, 0.002, true}, {0.10, 0.002, true}}, 0.0);
   EXPECT_GT(twice.setback.sigma_m, 1.02 * thickness.setback.sigma_m / std::sqrt(2.0));
 }
 
 TEST(FrontBelief, EdgesInThePlaneAreAFlushFrames) {
-  const std::vector<DepthSight> in_plane = {{0.001, 0.003, false}, {-0.002, 0.003, false}};
-  EXPECT_GT(BelieveFront(in_plane, 0.5).flush, 0.95);
+  const std::vector<DepthMeasurement> in_plane = {{0.001, 0.003, false}, {-0.002, 0.003, false}};
+  EXPECT_GT(InferSetback(in_plane, 0.5).flush, 0.95);
   // The twin: it is known not to be flush.
-  EXPECT_EQ(BelieveFront(in_plane, 0.0).flush, 0.0);
+  EXPECT_EQ(InferSetback(in_plane, 0.0).flush, 0.0);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper/crossing_covariance.h"
+#include "vision/rgbd/paper/diagonals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper/vertices.h"
+#include "vision/rgbd/paper/frame_vertices.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include "tests/vision/rgbd/synthetic_kinect.h"
 #include "vision/rgbd/plane/depth_around_frame.h"
-#include "vision/rgbd/plane/hidden_sides.h"
+#include "vision/rgbd/plane/frame_planes.h"
 
 namespace fenestra {
 namespace {

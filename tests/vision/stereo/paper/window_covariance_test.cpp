@@ -1,4 +1,4 @@
-#include "vision/stereo/paper/window_covariance.h"
+#include "vision/stereo/paper/window_rectangle.h"
 
 #include <gtest/gtest.h>
 

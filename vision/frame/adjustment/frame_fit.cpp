@@ -1,4 +1,4 @@
-#include "vision/frame/adjustment/frame_support.h"
+#include "vision/frame/adjustment/frame_fit.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,0 +1,1 @@
+// CMake compiles a precompiled header for a target with a source.
