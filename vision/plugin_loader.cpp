@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/io/input_error.h"
-#include "core/system/build_id.h"
+#include "core/system/program.h"
 #include "vision/detector_plugin.h"
 #include "vision/detector_registry.h"
 

@@ -7,7 +7,8 @@
 
 namespace fenestra {
 
-DepthCarrier::DepthCarrier(const CameraModel& from, const Pose& X_KD, const CameraModel& to)
+DepthReprojection::DepthReprojection(const CameraModel& from, const Pose& X_KD,
+                                     const CameraModel& to)
     : to_(to), p_KD_(X_KD.translation()), width_px_(from.width_px()) {
   for (int v = 0; v < from.height_px(); ++v) {
     for (int u = 0; u < from.width_px(); ++u) {
@@ -18,11 +19,11 @@ DepthCarrier::DepthCarrier(const CameraModel& from, const Pose& X_KD, const Came
   }
 }
 
-DepthCarrier::Carried DepthCarrier::Carry(const DepthImage& depth) const {
+DepthReprojection::Reprojected DepthReprojection::Reproject(const DepthImage& depth) const {
   FENESTRA_CHECK(depth.raw.cols == width_px_ && depth.raw.total() == rays_K_.size(),
                  "the depth image must have the size of its camera");
   const cv::Size size(to_.width_px(), to_.height_px());
-  Carried carried{cv::Mat1i(size, kNowhere), cv::Mat1f::zeros(size)};
+  Reprojected reprojected{cv::Mat1i(size, kNowhere), cv::Mat1f::zeros(size)};
   for (int v = 0; v < depth.raw.rows; ++v) {
     for (int u = 0; u < depth.raw.cols; ++u) {
       const double z_D = depth.raw(v, u) * depth.unit_m;
@@ -35,14 +36,14 @@ DepthCarrier::Carried DepthCarrier::Carry(const DepthImage& depth) const {
       // A pixel exactly on the far border would round to one beyond the image.
       const int x = std::clamp(static_cast<int>(std::lround(pixel->x())), 0, size.width - 1);
       const int y = std::clamp(static_cast<int>(std::lround(pixel->y())), 0, size.height - 1);
-      float& nearest_m = carried.depth_m(y, x);
+      float& nearest_m = reprojected.depth_m(y, x);
       const auto z_m = static_cast<float>(p_KQ.z());
       if (nearest_m != 0.0f && z_m >= nearest_m) continue;
       nearest_m = z_m;
-      carried.source(y, x) = source;
+      reprojected.source(y, x) = source;
     }
   }
-  return carried;
+  return reprojected;
 }
 
 }  // namespace fenestra

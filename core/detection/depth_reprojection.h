@@ -11,28 +11,28 @@
 
 namespace fenestra {
 
-/// Carries depth images from their own camera D to another camera K, as drivers and detectors
+/// Reprojects depth images from their own camera D to another camera K, as drivers and detectors
 /// register depth to colour. Every depth pixel becomes a point,
 ///
 ///     p_K = X_KD (z r_D),   r_D = (x, y, 1) the ray of the pixel in D,
 ///
-/// and is rounded to the nearest pixel of K; of several, the nearest z wins. If K is rolled against
-/// D, or its pixels are finer, some of its pixels stay empty; and what only K sees is empty too or,
-/// where D sees something behind it, shows that.
-class DepthCarrier {
+/// and is rounded to the nearest pixel of K; of several points, the nearest wins. Pixels of K stay
+/// empty if K is rolled against D or if its pixels are finer. A surface that only K sees is empty,
+/// too, or shows what D sees behind it.
+class DepthReprojection {
  public:
-  DepthCarrier(const CameraModel& from, const Pose& X_KD, const CameraModel& to);
+  DepthReprojection(const CameraModel& from, const Pose& X_KD, const CameraModel& to);
 
-  /// Where no pixel of `from` falls.
+  /// The source of a pixel onto which no pixel of `from` falls.
   static constexpr int kNowhere = -1;
   /// For each pixel of `to` the index (row by row) of the pixel of `depth` that it shows, and its
   /// depth there [m]; kNowhere and 0 without one.
-  struct Carried {
+  struct Reprojected {
     cv::Mat1i source;
     cv::Mat1f depth_m;
   };
   /// `depth` must have the size of `from`.
-  Carried Carry(const DepthImage& depth) const;
+  Reprojected Reproject(const DepthImage& depth) const;
 
  private:
   CameraModel to_;

@@ -13,7 +13,7 @@ namespace fenestra {
 /// unrectified left camera (stereo) or the camera that the depth image's pixels belong to (RGB-D).
 /// Metres.
 struct WindowEstimate {
-  /// Centre of the frame's front outer rectangle.
+  /// Centre of the window frame's front outer rectangle.
   Eigen::Vector3d p_CO = Eigen::Vector3d::Zero();
   /// Corners of that rectangle: top left, top right, bottom right, bottom left as seen in the
   /// image.
@@ -23,9 +23,9 @@ struct WindowEstimate {
   Eigen::Vector3d normal_C = -Eigen::Vector3d::UnitZ();
   /// Covariance of p_CO [m²], where the detector can state one.
   std::optional<Eigen::Matrix3d> covariance_C{};
-  /// How much speaks for it, 0 to 1, comparable between windows of one detector only.
+  /// Confidence from 0 to 1; comparable only between windows of one detector.
   std::optional<double> score{};
-  /// What else may be a window, the best first, where the detector can say.
+  /// Other candidates for a window, the best first, if the detector reports any.
   std::vector<WindowEstimate> others{};
 };
 

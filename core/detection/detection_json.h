@@ -1,13 +1,24 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/detection/detection.h"
 #include "core/detection/stage_log.h"
+#include "core/geometry/pose.h"
 
 namespace fenestra {
+
+/// Geometry as JSON: lists of numbers, matrices row by row, every double in the shortest form that
+/// reads back with the same bits (-0.0 included). Numbers must be finite; JSON has no others.
+nlohmann::ordered_json ToJson(const Eigen::Vector3d& v);
+nlohmann::ordered_json ToJson(const Eigen::Matrix3d& m);
+nlohmann::ordered_json ToJson(const std::array<Eigen::Vector3d, 4>& corners);
+/// {"rotation": [[...], ...], "translation_m": [...]}
+nlohmann::ordered_json ToJson(const Pose& X);
 
 /// A detection as JSON, metres in the scored camera's frame, all digits of every double:
 ///
@@ -26,16 +37,16 @@ struct TimedDetection {
   std::vector<StageTime> stages;
 };
 
-/// The inverse. Keys that are not named above are ignored. Throws std::runtime_error, saying what
-/// is wrong, for anything else than the above: a missing key, a wrong shape, a reason that is not
-/// snake_case, a negative time.
+/// The inverse of ToJson. Ignores keys that are not named above. Throws std::runtime_error, with
+/// the reason, for a missing key, a wrong shape, a reason that is not snake_case or a negative
+/// time.
 TimedDetection DetectionFromJson(const nlohmann::ordered_json& json);
 
-/// ToJson with the detector's name before it, for people and programs.
+/// The JSON of a detection with the detector's name before it, for people and programs.
 std::string DetectionJson(const std::string& detector, const Detection& detection,
                           const StageLog& log);
 
-/// The same for people alone.
+/// A detection and the times of its stages as text for people.
 std::string DetectionText(const std::string& detector, const Detection& detection,
                           const StageLog& log);
 

@@ -51,7 +51,8 @@ Eigen::Matrix3d ToMatrix(const ordered_json& json, const std::string& what) {
   return matrix;
 }
 
-// Of the diagonals, towards the camera; no corners that span a plane, no normal.
+// The unit normal of the diagonals' plane, towards the camera. Corners that span no plane have
+// none.
 Eigen::Vector3d NormalOf(const std::array<Eigen::Vector3d, 4>& p_CV) {
   const Eigen::Vector3d across = (p_CV[2] - p_CV[0]).cross(p_CV[3] - p_CV[1]);
   if (!(across.norm() > 0.0)) Complain("'normal' is missing and the corners span no plane");

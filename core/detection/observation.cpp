@@ -1,5 +1,8 @@
 #include "core/detection/observation.h"
 
+#include "core/io/atomic_file.h"
+#include "core/io/image_io.h"
+
 namespace fenestra {
 
 const char* ToString(SensorKind kind) {
@@ -11,6 +14,47 @@ std::optional<SensorKind> ParseSensorKind(std::string_view word) {
     if (word == ToString(kind)) return kind;
   }
   return std::nullopt;
+}
+
+ObservationFiles ObservationFiles::In(const std::filesystem::path& folder, SensorKind sensor) {
+  ObservationFiles files;
+  files.sensor = sensor;
+  files.calibration = folder / "calibration.yaml";
+  if (sensor == SensorKind::kStereo) {
+    files.left = folder / "left.png";
+    files.right = folder / "right.png";
+  } else {
+    files.color = folder / "color.png";
+    files.depth = folder / "depth.png";
+  }
+  return files;
+}
+
+void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
+                      const SensorCalibration& calibration) {
+  if (const auto* stereo = std::get_if<StereoObservation>(&observation)) {
+    const auto files = ObservationFiles::In(folder, SensorKind::kStereo);
+    WritePng(files.left, stereo->left);
+    WritePng(files.right, stereo->right);
+    WriteFileAtomically(files.calibration, ToOpenCvYaml(std::get<StereoCalibration>(calibration)));
+  } else {
+    const auto files = ObservationFiles::In(folder, SensorKind::kRgbd);
+    const auto& rgbd = std::get<RgbdObservation>(observation);
+    WritePng(files.color, rgbd.color);
+    WritePng(files.depth, rgbd.depth.raw);
+    WriteFileAtomically(files.calibration, ToOpenCvYaml(std::get<RgbdCalibration>(calibration)));
+  }
+}
+
+RecordedObservation ReadObservation(const ObservationFiles& files) {
+  if (files.sensor == SensorKind::kStereo) {
+    return {.observation = StereoObservation{ReadGrayImage(files.left), ReadGrayImage(files.right)},
+            .calibration = ReadStereoCalibration(files.calibration)};
+  }
+  const RgbdCalibration calibration = ReadRgbdCalibration(files.calibration);
+  return {.observation = RgbdObservation{ReadColorImage(files.color),
+                                         {ReadDepthImage(files.depth), calibration.depth_unit_m}},
+          .calibration = calibration};
 }
 
 }  // namespace fenestra

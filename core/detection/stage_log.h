@@ -42,8 +42,8 @@ struct StageCloud {
   std::vector<Eigen::Vector3f> points_C;
 };
 
-/// What a detector tells about its way to an estimate: the time of each stage and, on request,
-/// its intermediate pictures and clouds. Making a picture does not count as time of a stage.
+/// Records a detector's way to an estimate: the time of each stage and, on request, its
+/// intermediate pictures and clouds. Making a picture does not count as time of a stage.
 ///
 ///     log.Begin("rectify");  ...            // ends with the next Begin or with End
 ///     log.Picture("rectified", [&] { return Draw(...); });
@@ -70,7 +70,7 @@ class StageLog {
   double TotalSeconds() const;
 
  private:
-  /// Of the stage in times_, where it is put if it is new.
+  /// Index of the stage in times_, to which a new stage is added.
   size_t IndexOf(const std::string& stage);
   /// Runs `make` with the clock of the running stage stopped.
   void OffTheClock(const std::function<void()>& make);

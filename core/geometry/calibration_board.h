@@ -44,8 +44,8 @@ inline constexpr int kMarkerCount = 100;
 
 /// Throws InputError with all faults: fewer than 3 squares a side, more than 64, sides that are not
 /// positive, markers that do not fit into their squares or are more than there are. A chessboard
-/// must have an odd number of squares along one side and an even one along the other: others look
-/// the same when they stand on their heads.
+/// must have an odd number of squares along one side and an even one along the other: other
+/// boards look the same upside down.
 void Validate(const CalibrationBoard& board);
 
 }  // namespace fenestra

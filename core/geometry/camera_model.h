@@ -6,6 +6,19 @@
 
 namespace fenestra {
 
+/// Words with one meaning each in this project, since computer vision and facades share several:
+///
+///   frame         a coordinate frame: three axes and an origin, named by a capital letter
+///   window frame  the members around a window's panes: what is painted black on the wall
+///   image         what a camera delivers
+///   block         the pixels around one pixel that a matcher compares
+///   bound         Cramér and Rao's, the least covariance that an unbiased estimator can have
+///   limit         the value that a check holds a figure against
+///
+/// Axes and pixels: in a camera's frame C, +x is right, +y down and +z forward along the optical
+/// axis. Integer (u, v) is the centre of a pixel, so that the image's borders are at −0.5 and
+/// size − 0.5. Depth is z, never the length of a ray.
+
 /// Coefficients of the Brown–Conrady lens model, in OpenCV's order and sign.
 struct BrownConrady {
   double k1 = 0.0;
@@ -17,7 +30,7 @@ struct BrownConrady {
   bool operator==(const BrownConrady&) const = default;
 };
 
-/// What a pinhole camera with a Brown–Conrady lens is made of.
+/// Parameters of a pinhole camera with a Brown–Conrady lens.
 struct CameraParameters {
   int width_px = 0;
   int height_px = 0;
@@ -73,8 +86,9 @@ class CameraModel {
   /// Pixel to the direction (x, y, 1) of its ray in C. The inverse of Project to 1e-12 in the
   /// normalised image; nullopt where no ray of the valid domain meets the pixel.
   std::optional<Eigen::Vector3d> UnprojectRay(const Eigen::Vector2d& pixel) const;
-  /// The same, several times faster where `near`, (x, y) of a ray that is guessed from neighbouring
-  /// pixels, is right to a small part of a pixel. The result differs by rounding, by up to 1e-13.
+  /// UnprojectRay from a first guess `near`, (x, y) of a ray known from neighbouring pixels.
+  /// Several times faster if the guess is right to a small part of a pixel. The result differs by
+  /// rounding, by up to 1e-13.
   std::optional<Eigen::Vector3d> UnprojectRay(const Eigen::Vector2d& pixel,
                                               const Eigen::Vector2d& near) const;
 

@@ -7,16 +7,16 @@
 
 namespace fenestra {
 
-/// A name beside `file` that no other process and no other thread uses, for what becomes `file` when
-/// it is complete.
+/// A name beside `file` that no other process and no other thread uses, for what becomes `file`
+/// when it is complete.
 std::filesystem::path TemporaryBeside(const std::filesystem::path& file);
 
 /// Writes `bytes` to a temporary file in the same folder, which is made if it is missing, and
 /// renames it to `file`: readers see the old file or the whole new one. Throws InputError.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);
 
-/// The same for a file that is too large to be made in memory: `write` puts it into the stream. If
-/// it throws, nothing stays.
+/// Writes a file that is too large for memory in the same way: `write` puts it into the stream. If
+/// `write` throws, nothing is left behind.
 void WriteFileAtomically(const std::filesystem::path& file,
                          const std::function<void(std::ostream&)>& write);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -53,5 +54,9 @@ class Faults {
   std::vector<InputFault> faults_;
   size_t left_out_ = 0;
 };
+
+/// " Did you mean 'x'?" for the allowed word that is nearest to `word` by edit distance with
+/// transpositions, or "" where none is near (more than a third of its letters differ).
+std::string DidYouMean(std::string_view word, std::span<const std::string> allowed);
 
 }  // namespace fenestra

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 
 namespace fenestra {
 

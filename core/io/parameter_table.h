@@ -21,7 +21,7 @@ using ParameterValue = std::variant<bool, double, std::string>;
 /// The value as YAML and tables show it; numbers in the shortest form that reads back exactly.
 std::string ToString(const ParameterValue& value);
 
-/// What a user may know of a parameter: its name carries the unit.
+/// Description of a parameter for users. Its name carries the unit.
 struct ParameterInfo {
   enum class Type { kSwitch, kNumber, kInteger, kChoice };
 
@@ -188,7 +188,7 @@ class ParameterTable {
     return getters_[IndexOf(name)](settings);
   }
 
-  /// Of all parameters whose values are not allowed (ParameterInfo::Objection).
+  /// The objections to all parameters whose values are not allowed (ParameterInfo::Objection).
   std::vector<std::string> Objections(const Settings& settings) const {
     std::vector<std::string> objections;
     for (size_t i = 0; i < infos_.size(); ++i) {

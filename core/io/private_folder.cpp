@@ -17,7 +17,7 @@ namespace fenestra {
 namespace fs = std::filesystem;
 namespace {
 
-// Followed by the process's number, so that the next process can tell what nobody needs any more.
+// The number of the process follows, so that others can tell which folders are abandoned.
 constexpr std::string_view kPrefix = "fenestra-";
 
 fs::path Parent() {

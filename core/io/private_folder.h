@@ -4,10 +4,10 @@
 
 namespace fenestra {
 
-/// A new folder that only this user can enter, in memory (/dev/shm) where there is such a place,
-/// else among the temporary files; removed with all its contents at the end of the scope. What
-/// processes that were killed have left is removed when the next one is made. Throws InputError if
-/// no folder can be made.
+/// A new folder that only this user can enter, removed with its contents at the end of the scope.
+/// It is in memory (/dev/shm) if possible, otherwise among the temporary files. Folders that killed
+/// processes have left behind are removed when the next one is made. Throws InputError if no folder
+/// can be made.
 class PrivateFolder {
  public:
   PrivateFolder();

@@ -16,7 +16,7 @@ std::array<float, 255> MakeThresholds() {
   return thresholds;
 }
 
-// For every 12-bit prefix of the linear value the smallest code it may have.
+// The smallest code of a linear value, by its upper 12 bits.
 std::array<unsigned char, 4097> MakeFirstCodes(const std::array<float, 255>& thresholds) {
   std::array<unsigned char, 4097> codes{};
   for (size_t i = 0; i < codes.size(); ++i) {

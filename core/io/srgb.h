@@ -11,10 +11,10 @@ namespace fenestra {
 ///     v = 1.055 x^(1/2.4) − 0.055    else
 double LinearFromSrgb(double encoded);
 
-/// Clips values outside [0, 1].
+/// The inverse of LinearFromSrgb; clips values outside [0, 1].
 double SrgbFromLinear(double linear);
 
-/// dv/dx.
+/// The slope dv/dx of the curve, for the propagation of noise.
 double SrgbSlope(double linear);
 
 /// Encodes linear values in 8 bits, rounded to the nearest code; clips values outside [0, 1].

@@ -8,8 +8,6 @@
 #include <fstream>
 #include <set>
 
-#include "core/io/did_you_mean.h"
-
 namespace fenestra {
 namespace {
 
@@ -172,6 +170,12 @@ std::string YamlReader::Describe(const YAML::Node& node) {
   if (node.IsSequence()) return fmt::format("a list of {}", node.size());
   const std::string& text = node.Scalar();
   return text.size() <= 40 ? "'" + text + "'" : "'" + text.substr(0, 40) + "…'";
+}
+
+std::string YamlQuoted(const std::string& text) {
+  YAML::Emitter emitter;
+  emitter << YAML::DoubleQuoted << text;
+  return emitter.c_str();
 }
 
 }  // namespace fenestra

@@ -64,4 +64,7 @@ class YamlReader {
   Faults faults_;
 };
 
+/// The text as a double-quoted YAML scalar, whatever characters it has.
+std::string YamlQuoted(const std::string& text);
+
 }  // namespace fenestra

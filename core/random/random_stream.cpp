@@ -7,6 +7,7 @@
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 
+#include "core/geometry/pose.h"
 #include "core/random/random_words.h"
 
 namespace fenestra {
@@ -50,6 +51,10 @@ void FillWords(uint64_t key, Use use, std::span<float> out, Convert convert) {
   }
 }
 
+Eigen::Vector3d NormalVector(const RandomStream& stream, double sigma) {
+  return sigma * Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
+}
+
 }  // namespace
 
 RandomStream RandomStream::Child(std::string_view purpose, uint64_t index) const {
@@ -78,6 +83,11 @@ void RandomStream::FillUniforms(std::span<float> out) const {
       uniforms[i] = (static_cast<float>(words[i] >> 8) + 0.5f) * 0x1p-24f;
     }
   });
+}
+
+Pose RandomPose(const RandomStream& stream, double rotation_rad, double translation_m) {
+  return Pose(RotationFromVector(NormalVector(stream.Child("rotation"), rotation_rad)),
+              NormalVector(stream.Child("translation"), translation_m));
 }
 
 }  // namespace fenestra

@@ -6,6 +6,8 @@
 
 namespace fenestra {
 
+class Pose;
+
 /// A pure function from (seed, path, index) to random numbers; no state, no order of calls.
 ///
 /// Numbers come from Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3",
@@ -17,7 +19,7 @@ class RandomStream {
  public:
   explicit RandomStream(uint64_t seed) : key_(seed) {}
 
-  /// The stream for one purpose ("read_noise") and index (a replicate, a frame, a camera).
+  /// The stream for one purpose ("read_noise") and index (a replicate, an image, a camera).
   RandomStream Child(std::string_view purpose, uint64_t index = 0) const;
 
   /// Uniform in the open interval (0, 1), 52 bits.
@@ -38,5 +40,9 @@ class RandomStream {
  private:
   uint64_t key_;
 };
+
+/// A small displacement: a rotation vector and a translation, whose six components are independent
+/// and normal with mean 0 and the given standard deviations [rad], [m].
+Pose RandomPose(const RandomStream& stream, double rotation_rad, double translation_m);
 
 }  // namespace fenestra

@@ -1,13 +1,64 @@
 #include "core/system/program.h"
 
+#include <elf.h>
+#include <fmt/format.h>
+#include <link.h>
 #include <unistd.h>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
+#include <cstdint>
 #include <fstream>
 
-#include "core/system/build_id.h"
-#include "core/system/shell_quoting.h"
-
 namespace fenestra {
+namespace {
+
+struct Search {
+  uintptr_t address;
+  std::string id;
+};
+
+bool Holds(const dl_phdr_info& object, uintptr_t address) {
+  for (int i = 0; i < object.dlpi_phnum; ++i) {
+    const auto& segment = object.dlpi_phdr[i];
+    const uintptr_t begin = object.dlpi_addr + segment.p_vaddr;
+    if (segment.p_type != PT_LOAD || address < begin) continue;
+    if (address < begin + segment.p_memsz) return true;
+  }
+  return false;
+}
+
+// Notes lie in memory one after the other, each padded to four bytes.
+std::string IdAmongNotes(uintptr_t at, uintptr_t end) {
+  const auto pad = [](size_t bytes) { return (bytes + 3) / 4 * 4; };
+  while (at + sizeof(ElfW(Nhdr)) <= end) {
+    const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(at);
+    const auto* bytes =
+        reinterpret_cast<const unsigned char*>(at + sizeof(*note) + pad(note->n_namesz));
+    if (note->n_type == NT_GNU_BUILD_ID) {
+      std::string id;
+      for (size_t k = 0; k < note->n_descsz; ++k) id += fmt::format("{:02x}", bytes[k]);
+      return id;
+    }
+    at += sizeof(*note) + pad(note->n_namesz) + pad(note->n_descsz);
+  }
+  return {};
+}
+
+int Visit(dl_phdr_info* object, size_t, void* data) {
+  auto& search = *static_cast<Search*>(data);
+  if (!Holds(*object, search.address)) return 0;
+  for (int i = 0; i < object->dlpi_phnum && search.id.empty(); ++i) {
+    const auto& segment = object->dlpi_phdr[i];
+    if (segment.p_type != PT_NOTE) continue;
+    const uintptr_t begin = object->dlpi_addr + segment.p_vaddr;
+    search.id = IdAmongNotes(begin, begin + segment.p_memsz);
+  }
+  return 1;
+}
+
+}  // namespace
 
 const std::string& BuildId() {
   static const std::string id = BuildIdAt(reinterpret_cast<const void*>(&Version));
@@ -49,6 +100,34 @@ std::string CommandLine() {
     command += (command.empty() ? "" : " ") + ShellQuoted(word);
   }
   return command;
+}
+
+std::string BuildIdAt(const void* address) {
+  Search search{.address = reinterpret_cast<uintptr_t>(address), .id = {}};
+  dl_iterate_phdr(Visit, &search);
+  return search.id;
+}
+
+std::string ShellQuoted(const std::string& word) {
+  constexpr const char* kSafe =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./:=,+%@";
+  if (!word.empty() && word.find_first_not_of(kSafe) == std::string::npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) {
+    if (c == '\'') {
+      quoted += "'\\''";
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "'";
+}
+
+void KeepFreedMemory() {
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // The largest that it takes.
+  mallopt(M_TRIM_THRESHOLD, 256 << 20);
+#endif
 }
 
 }  // namespace fenestra

@@ -24,4 +24,18 @@ std::string CommandLine();
 /// with the same one compute the same.
 const std::string& BuildId();
 
+/// The hash that the linker left (--build-id) in the program or shared library that `address` is
+/// in, in hexadecimal; empty if it left none, or nothing is loaded there. Two files with the same
+/// one hold the same code.
+std::string BuildIdAt(const void* address);
+
+/// The word as a POSIX shell reads it back: unchanged where that is safe, otherwise in single
+/// quotes.
+std::string ShellQuoted(const std::string& word);
+
+/// Lets the process keep the memory of images it is done with for the next ones, up to 256 MB.
+/// By default glibc gives it back and has every page zeroed again: a tenth of an image's time.
+/// Without effect with other C libraries. Before threads are started.
+void KeepFreedMemory();
+
 }  // namespace fenestra

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "experiments/study/factors.h"
 
 namespace fenestra {

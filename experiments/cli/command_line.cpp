@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "core/detection/observation.h"
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "scenes/lighting.h"
 
 namespace fenestra::cli {

@@ -5,7 +5,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
-#include "experiments/depth_bench/depth_curves.h"
+#include "experiments/depth_curves/depth_curves.h"
 
 namespace fenestra::cli {
 
@@ -27,7 +27,7 @@ void AddDepthCommand(Command program) {
   command.Action([folder, seed] {
     StructuredLightOptions options;
     const DepthCurves parametric = MeasureDepthCurves(options, RandomStream(*seed));
-    options.depth_model = DepthModel::kSpeckle;
+    options.depth_model = DepthModel::kMatched;
     const DepthCurves speckle = MeasureDepthCurves(options, RandomStream(*seed));
     const std::string report = DepthCurvesMarkdown(options, parametric, speckle);
     WriteFileAtomically(*folder / "depth_curves.md", report);

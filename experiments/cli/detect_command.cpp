@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/detection/detection_json.h"
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"

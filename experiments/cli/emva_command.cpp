@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "core/io/atomic_file.h"
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"

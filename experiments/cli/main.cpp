@@ -5,7 +5,6 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "core/io/input_error.h"
-#include "core/system/freed_memory.h"
 #include "core/system/program.h"
 #include "experiments/cli/commands.h"
 #include "experiments/run/library_versions.h"

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/plugins.h"

@@ -8,7 +8,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
-#include "core/system/shell_quoting.h"
+#include "core/system/program.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"
 #include "experiments/run/slurm_scripts.h"

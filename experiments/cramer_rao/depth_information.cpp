@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "sim/structured_light/block_evidence.h"
-#include "sim/structured_light/disparity_range.h"
-#include "sim/structured_light/sampled_pattern.h"
+#include "sim/structured_light/disparity.h"
+#include "sim/structured_light/dot_pattern.h"
 
 namespace fenestra {
 namespace {
@@ -19,12 +19,12 @@ CameraModel InfraredCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
 }
 
-// Pixels that share a window's noise.
-double WindowArea(const StructuredLightOptions& o) {
+// Pixels that share a block's noise.
+double BlockArea(const StructuredLightOptions& o) {
   const double scale = DisparityRange::kImageWidth / o.depth_width_px;
-  const WindowGatherer windows(o.matching.window_width_px / scale,
-                               o.matching.window_height_px / scale, 1.0, 1.0);
-  return (2.0 * windows.reach_u() + 1.0) * (2.0 * windows.reach_v() + 1.0);
+  const BlockGatherer blocks(o.matching.block_width_px / scale, o.matching.block_height_px / scale,
+                             1.0, 1.0);
+  return (2.0 * blocks.reach_u() + 1.0) * (2.0 * blocks.reach_v() + 1.0);
 }
 
 // The derivative of a disparity by the unknowns. All in the infra-red camera: r the ray, n the
@@ -86,8 +86,8 @@ DepthTheory::DepthTheory(const StructuredLightSensor& sensor)
     : options_(sensor.options()),
       image_camera_(sensor.nominal().depth),
       rays_(InfraredCamera(options_).Scaled(1.0 / kStride)),
-      window_px_(WindowArea(options_)),
-      pattern_mean_(GatheredPattern(options_.infrared.dot_sigma_px).MomentsAt(0.0).mean),
+      block_px_(BlockArea(options_)),
+      pattern_mean_(SampledPattern(options_.infrared.dot_sigma_px).MomentsAt(0.0).mean),
       focal_times_baseline_(DisparityRange::Of(options_.depth_focal_px, options_.depth_width_px,
                                                options_.projector_baseline_m,
                                                options_.disparity_step_px, options_.near_mode)
@@ -106,7 +106,7 @@ double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
   const double unit_px = focal_times_baseline_ / (z_m * z_m) * 1e-3;
   const double steps_px2 =
       (options_.disparity_step_px * options_.disparity_step_px + unit_px * unit_px) / 12.0;
-  return window_px_ * (fixed_px2 + temporal_px2 / options_.averaged_frames) +
+  return block_px_ * (fixed_px2 + temporal_px2 / options_.averaged_frames) +
          steps_px2 / options_.averaged_frames;
 }
 
@@ -116,7 +116,7 @@ bool DepthTheory::StandsOut(const InfraredLight& light) const {
   const double variance_dn2 =
       infrared.dark_noise_dn * infrared.dark_noise_dn +
       infrared.shot_noise_dn * (light.ambient_dn + kContrast * light.dot_dn);
-  // A window that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast.
+  // A block that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast.
   return kContrast * light.dot_dn * std::sqrt(1.0 / (rho * rho) - 1.0) >= std::sqrt(variance_dn2);
 }
 

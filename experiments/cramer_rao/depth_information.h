@@ -21,8 +21,8 @@ using DepthMatrix = Eigen::Matrix<double, kDepthUnknowns, kDepthUnknowns>;
 ///
 ///     d = f b (n·r)/δ + noise   [px of a 640-wide image],
 ///
-/// r its ray. Its noise is white noise averaged over the window of N pixels that is matched:
-/// neighbours share it, so that over areas wider than a window, M pixels are worth M/N. With
+/// r its ray. Its noise is white noise averaged over the block of N pixels that is matched:
+/// neighbours share it, so that over areas wider than a block, M pixels are worth M/N. With
 /// fixed and temporal deviation σ_f, σ_t, quantisation step q and k frames averaged, the spectral
 /// density at frequency 0, which is what counts for a plane, is
 ///
@@ -53,7 +53,7 @@ class DepthTheory {
   StructuredLightOptions options_;
   CameraModel image_camera_;  ///< The depth image's.
   RayGrid rays_;              ///< The infra-red camera's, but coarser.
-  double window_px_;          ///< N, in depth pixels.
+  double block_px_;           ///< N, in depth pixels.
   double pattern_mean_;
   double focal_times_baseline_;
 };

@@ -7,7 +7,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/eigen.hpp>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
 #include "experiments/output/csv_writer.h"

@@ -8,7 +8,7 @@
 #include <opencv2/core/utility.hpp>
 #include <openturns/PlatformInfo.hxx>
 
-#include "renderers/tracing/embree_version.h"
+#include "renderers/tracing/embree_scene.h"
 
 namespace fenestra {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/system/shell_quoting.h"
+#include "core/system/program.h"
 
 namespace fenestra {
 namespace {

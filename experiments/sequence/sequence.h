@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/detection/observation_files.h"
+#include "core/detection/observation.h"
 #include "experiments/study/factors.h"
 #include "experiments/study_file/detector_reader.h"
 #include "sim/truth/ground_truth.h"

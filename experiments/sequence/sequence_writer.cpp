@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "core/detection/observation_files.h"
+#include "core/detection/observation.h"
 #include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
-#include "core/io/yaml_quoting.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/sequence/surveyed_truth.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "core/geometry/geometry_json.h"
+#include "core/detection/detection_json.h"
 
 namespace fenestra {
 namespace {

@@ -277,9 +277,9 @@ void AddRgbdDepth(Table& t) {
               "Standard deviation of a dot's spread in the infra-red image.")
       .Number("rgbd_speckle_contrast", FIELD(rgbd.infrared.speckle_contrast), {0.0, 1.0},
               "Contrast of the laser's speckle in a pixel.")
-      .Integer("rgbd_matching_window_width_px", FIELD(rgbd.matching.window_width_px), {3, 15},
+      .Integer("rgbd_matching_window_width_px", FIELD(rgbd.matching.block_width_px), {3, 15},
                "Width of the block that is matched; odd.")
-      .Integer("rgbd_matching_window_height_px", FIELD(rgbd.matching.window_height_px), {3, 15},
+      .Integer("rgbd_matching_window_height_px", FIELD(rgbd.matching.block_height_px), {3, 15},
                "Height of the block that is matched; odd.")
       .Number("rgbd_least_correlation", FIELD(rgbd.matching.least_correlation), {0.01, 0.99},
               "Least correlation coefficient of a match that is accepted.")

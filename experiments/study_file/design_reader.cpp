@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "experiments/sampling/causes.h"
 #include "experiments/sampling/gaussian_copula.h"
 #include "experiments/study_file/detector_reader.h"

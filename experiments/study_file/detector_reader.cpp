@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "experiments/study_file/name_reader.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "experiments/study/factors.h"
 
 namespace fenestra {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/io/yaml_quoting.h"
+#include "core/io/yaml_reader.h"
 #include "core/system/program.h"
 
 namespace fenestra {

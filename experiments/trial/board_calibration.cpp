@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
 #include "experiments/study/factors.h"
 

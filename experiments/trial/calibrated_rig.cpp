@@ -1,6 +1,6 @@
 #include "experiments/trial/calibrated_rig.h"
 
-#include "core/random/random_pose.h"
+#include "core/random/random_stream.h"
 #include "experiments/cramer_rao/calibration_covariance.h"
 #include "experiments/trial/board_calibration.h"
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
 #include "core/system/check.h"

@@ -7,7 +7,7 @@
 #include <exception>
 #include <limits>
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/io/atomic_file.h"
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "core/io/srgb.h"

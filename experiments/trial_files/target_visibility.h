@@ -1,7 +1,6 @@
 #pragma once
 
 #include "sim/truth/ground_truth.h"
-#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 

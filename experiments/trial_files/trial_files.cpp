@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/detection/observation_files.h"
-#include "core/geometry/calibration_io.h"
+#include "core/detection/observation.h"
+#include "core/geometry/calibration.h"
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
 #include "experiments/output/pcd.h"
@@ -109,7 +109,7 @@ void WriteTruthFiles(const std::filesystem::path& folder, const TrialRunner& run
   const TruthImages images = runner.TruthOf(simulated);
   const SensorCalibration sensor = runner.SensorOf(simulated).cameras;
   const bool stereo = std::holds_alternative<StereoCalibration>(sensor);
-  if (const std::optional<DepthFrame> depth = runner.DepthOf(simulated)) {
+  if (const std::optional<ExplainedDepth> depth = runner.DepthOf(simulated)) {
     WritePng(folder / "no_return.png", DrawNoReturn(depth->no_return));
     // Ten bits at the upper end of sixteen, so that a viewer shows them.
     constexpr double kToSixteenBits = 64.0;

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/geometry/geometry_json.h"
+#include "core/detection/detection_json.h"
 
 namespace fenestra {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "renderers/exr_io.h"
-#include "sim/truth/truth_images.h"
+#include "sim/truth/ground_truth.h"
 
 namespace fenestra {
 

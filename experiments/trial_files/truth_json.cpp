@@ -1,6 +1,6 @@
 #include "experiments/trial_files/truth_json.h"
 
-#include "core/geometry/geometry_json.h"
+#include "core/detection/detection_json.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numbers>
 
-#include "renderers/light/lit_surfaces.h"
 #include "renderers/tracing/sobol_samples.h"
 
 namespace fenestra {
@@ -28,7 +27,7 @@ vec3 ToVec3(const Eigen::Vector3d& v) {
 std::array<glm::vec2, kLanes> TrianglePoints() {
   std::array<glm::vec2, kLanes> points;
   for (uint32_t i = 0; i < kLanes; ++i) {
-    const NetPoint net = SobolPoint(i);
+    const SobolPoint net = NthSobolPoint(i);
     // Half a step of 1/16 in, so that the points are symmetric in the square.
     const glm::vec2 p(ToUnit(net.x) + 1.0f / 32.0f, ToUnit(net.y) + 1.0f / 32.0f);
     points[i] = p.x + p.y < 1.0f ? p : 1.0f - p;

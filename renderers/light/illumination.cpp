@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "renderers/light/lit_surfaces.h"
+#include "renderers/light/spectrum.h"
 
 namespace fenestra {
 namespace {

@@ -35,7 +35,7 @@ FENESTRA_WIDE PixelBlock MakePixelBlock(uint32_t corner, uint32_t stride, uint32
   for (uint32_t i = 0; i < kLanes; ++i) {
     const uint32_t column = i % kBlockSide;
     const uint32_t row = i / kBlockSide;
-    const NetPoint seed = scramble.OfPixel(index + row * width + column);
+    const SobolPoint seed = scramble.OfPixel(index + row * width + column);
     block.corner.v[i] = corner + row * stride + column;
     block.seed_x.v[i] = seed.x;
     block.seed_y.v[i] = seed.y;

@@ -54,7 +54,7 @@ struct PixelBlock {
 PixelBlock MakePixelBlock(uint32_t corner, uint32_t stride, uint32_t index, uint32_t width,
                           const ImageScramble& scramble);
 
-/// Net points (see NetTable) scrambled with each lane's seeds.
+/// Sobol points (see SobolTable) scrambled with each lane's seeds.
 PixelPoints ScrambledPoints(const Lanes<uint32_t>& net_x, const Lanes<uint32_t>& net_y,
                             const Lanes<uint32_t>& seed_x, const Lanes<uint32_t>& seed_y);
 

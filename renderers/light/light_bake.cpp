@@ -8,6 +8,7 @@
 
 #include "renderers/light/hemisphere.h"
 #include "renderers/light/lane_kernels.h"
+#include "renderers/light/surface_corners.h"
 
 namespace fenestra {
 namespace {
@@ -16,16 +17,7 @@ using glm::vec3;
 
 // Transmittances that differ by more than this end differently; what a pane does varies less.
 constexpr float kSameTransmittance = 0.1f;
-// Corners are moved this part of the way into their faces: on the edge itself, a ray into the
-// neighbouring solid would start on that solid's surface and might miss it.
-constexpr float kInwards = 0.02f;
 constexpr uint32_t kOpen = ~0u;
-
-// One side of a surface at a corner.
-struct BakePoint {
-  vec3 p_W{0.0f};
-  vec3 n_W{0.0f};
-};
 
 // What a ray has found.
 struct Ending {
@@ -210,60 +202,6 @@ bool IsSupportingPlane(const TracedScene& scene, const vec3& p, const vec3& n) {
   const auto behind = [&](const vec3& q) { return glm::dot(q, n) <= distance_m; };
   return std::ranges::all_of(scene.opaque().positions_W, behind) &&
          std::ranges::all_of(scene.panes().positions_W, behind);
-}
-
-// Corners of triangles of one surface that share a vertex share their view.
-struct SharedCorner {
-  vec3 p_W{0.0f};
-  vec3 n_W{0.0f};
-  vec3 centroid_sum_W{0.0f};
-  float count = 0.0f;
-  uint32_t surface = 0;
-  bool is_closed = false;
-  bool is_smooth = false;
-
-  BakePoint Side(bool front) const {
-    const vec3 centroid = centroid_sum_W / count;
-    return {p_W + kInwards * (centroid - p_W), front ? n_W : -n_W};
-  }
-};
-
-struct SharedCorners {
-  std::vector<SharedCorner> corners;
-  std::vector<std::array<size_t, 3>> of_triangle;
-};
-
-SharedCorners FindSharedCorners(const TriangleSoup& soup, const std::vector<uint32_t>& surfaces) {
-  SharedCorners shared;
-  std::map<std::pair<uint32_t, uint32_t>, size_t> index;
-  for (size_t t = 0; t < soup.size(); ++t) {
-    std::array<size_t, 3> ids{};
-    vec3 centroid(0.0f);
-    for (int k = 0; k < 3; ++k) centroid += soup.positions_W[soup.triangles[t][k]] / 3.0f;
-    const bool smooth = soup.is_smooth(t);
-    for (int k = 0; k < 3; ++k) {
-      const uint32_t vertex = soup.triangles[t][k];
-      const auto [entry, is_new] = index.try_emplace({vertex, surfaces[t]}, shared.corners.size());
-      if (is_new) {
-        vec3 n = soup.normals_W[t];
-        if (smooth) {
-          const vec3& shading = soup.vertex_normals_W[vertex];
-          n = glm::dot(n, shading) < 0.0f ? -shading : shading;
-        }
-        shared.corners.push_back({.p_W = soup.positions_W[vertex],
-                                  .n_W = n,
-                                  .surface = surfaces[t],
-                                  .is_closed = soup.is_closed[t],
-                                  .is_smooth = smooth});
-      }
-      SharedCorner& corner = shared.corners[entry->second];
-      corner.centroid_sum_W += centroid;
-      corner.count += 1.0f;
-      ids[static_cast<size_t>(k)] = entry->second;
-    }
-    shared.of_triangle.push_back(ids);
-  }
-  return shared;
 }
 
 // Adds the points of all corners; returns those of each corner's front and back.

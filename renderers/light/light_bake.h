@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderers/light/sky_patches.h"
+#include "renderers/light/sky_light.h"
 #include "renderers/tracing/traced_scene.h"
 
 namespace fenestra {

@@ -30,16 +30,6 @@ glm::vec3 SunCosines(const TriangleSoup& soup, size_t triangle, bool front,
 
 }  // namespace
 
-double SunIlluminance(const Lighting& lighting) {
-  return lighting.sun.Direction_W().y() > 0.0 ? lighting.sun.illuminance_lx : 0.0;
-}
-
-Spectrum GroundExitance(const Lighting& lighting) {
-  const double E =
-      lighting.sky.illuminance_lx + SunIlluminance(lighting) * lighting.sun.Direction_W().y();
-  return DaylightSpectrum(lighting.sky.ground_reflectance * E, lighting);
-}
-
 std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
                                         const LightBake& bake, const std::vector<Spectrum>& ambient,
                                         const Lighting& lighting, Channel channel) {

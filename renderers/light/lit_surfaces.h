@@ -7,7 +7,6 @@
 #include "renderers/light/spectrum.h"
 #include "renderers/tracing/packet.h"
 #include "renderers/tracing/triangle_soup.h"
-#include "scenes/lighting.h"
 
 namespace fenestra {
 
@@ -23,18 +22,6 @@ struct SideRadiance {
   float sun_u = 0.0f;
   float sun_v = 0.0f;
 };
-
-/// Of a sky or sun of illuminance 1: the spectral irradiance at 830 nm may be 0.
-inline Spectrum DaylightSpectrum(double illuminance_lx, const Lighting& lighting) {
-  const auto E = static_cast<float>(illuminance_lx);
-  return {E, E, E, static_cast<float>(illuminance_lx * lighting.irradiance_830_per_lux)};
-}
-
-/// Exitance of the unobstructed ground: ρ_g (E_sky + E_sun sin γ_sun).
-Spectrum GroundExitance(const Lighting& lighting);
-
-/// The sun's illuminance; 0 below the horizon.
-double SunIlluminance(const Lighting& lighting);
 
 /// Radiance of all sides; `ambient` is the irradiance of the bake's points. The sky's is left at 0.
 ///

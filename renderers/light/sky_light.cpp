@@ -1,16 +1,30 @@
 #include "renderers/light/sky_light.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/geometry/pose.h"
-#include "renderers/light/lit_surfaces.h"
 
 namespace fenestra {
 namespace {
 
 // The sun's mean apparent radius: 959.6″. Source: Astronomical Almanac.
 constexpr double kSunRadius_rad = 959.6 / 3600.0 * kDegree;
+
+constexpr int kBands = 8;
+constexpr std::array<int, kBands> kPatchesOfBand = {30, 30, 24, 24, 18, 12, 6, 1};
+constexpr double kBandHeight_rad = 12.0 * std::numbers::pi / 180.0;
+// Luminance is averaged over this many points along each side of a patch.
+constexpr int kPointsPerSide = 6;
+
+// Sines of the elevations between which a band lies.
+double LowSine(int band) {
+  return std::sin(band * kBandHeight_rad);
+}
+double HighSine(int band) {
+  return band + 1 == kBands ? 1.0 : LowSine(band + 1);
+}
 
 }  // namespace
 
@@ -31,6 +45,40 @@ SkyLight::Seen SkyLight::Towards(const glm::vec3& direction_W) const {
   seen.sun = disc_.x > 0.0f && (d - to_sun_W_).squaredNorm() < chord * chord;
   if (seen.sun) seen.radiance += disc_;
   return seen;
+}
+
+int SkyPatchOf(const glm::vec3& direction_W) {
+  const double elevation = std::asin(std::clamp(static_cast<double>(direction_W.y), 0.0, 1.0));
+  const int band = std::min(static_cast<int>(elevation / kBandHeight_rad), kBands - 1);
+  int first = 0;
+  for (int b = 0; b < band; ++b) first += kPatchesOfBand[static_cast<size_t>(b)];
+  const int count = kPatchesOfBand[static_cast<size_t>(band)];
+  const double azimuth =
+      std::atan2(static_cast<double>(direction_W.x), static_cast<double>(direction_W.z));
+  const int i = static_cast<int>((azimuth / (2.0 * std::numbers::pi) + 0.5) * count);
+  return first + std::clamp(i, 0, count - 1);
+}
+
+std::array<double, kSkyPatches> PatchLuminances(const SkyDome& dome) {
+  std::array<double, kSkyPatches> mean{};
+  size_t patch = 0;
+  for (int band = 0; band < kBands; ++band) {
+    const int count = kPatchesOfBand[static_cast<size_t>(band)];
+    for (int i = 0; i < count; ++i, ++patch) {
+      for (int p = 0; p < kPointsPerSide; ++p) {
+        // Solid angle is uniform in the sine of the elevation.
+        const double y = std::lerp(LowSine(band), HighSine(band), (p + 0.5) / kPointsPerSide);
+        const double r = std::sqrt(1.0 - y * y);
+        for (int q = 0; q < kPointsPerSide; ++q) {
+          const double azimuth =
+              2.0 * std::numbers::pi * ((i + (q + 0.5) / kPointsPerSide) / count - 0.5);
+          mean[patch] += dome.LuminancePerLux({r * std::sin(azimuth), y, r * std::cos(azimuth)}) /
+                         (kPointsPerSide * kPointsPerSide);
+        }
+      }
+    }
+  }
+  return mean;
 }
 
 }  // namespace fenestra

@@ -2,6 +2,21 @@
 
 namespace fenestra {
 
+Spectrum DaylightSpectrum(double illuminance_lx, const Lighting& lighting) {
+  const auto E = static_cast<float>(illuminance_lx);
+  return {E, E, E, static_cast<float>(illuminance_lx * lighting.irradiance_830_per_lux)};
+}
+
+double SunIlluminance(const Lighting& lighting) {
+  return lighting.sun.Direction_W().y() > 0.0 ? lighting.sun.illuminance_lx : 0.0;
+}
+
+Spectrum GroundExitance(const Lighting& lighting) {
+  const double E =
+      lighting.sky.illuminance_lx + SunIlluminance(lighting) * lighting.sun.Direction_W().y();
+  return DaylightSpectrum(lighting.sky.ground_reflectance * E, lighting);
+}
+
 std::vector<Channel> ChannelsOf(Band band) {
   switch (band) {
     case Band::kRgb:

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "renderers/tracing/render_types.h"
+#include "scenes/lighting.h"
 #include "scenes/scene.h"
 
 namespace fenestra {
@@ -37,6 +38,15 @@ inline Spectrum IntensitySpectrum(const Lamp& lamp) {
   return {lamp.intensity_rgb,
           Luminance(lamp.intensity_rgb) * static_cast<float>(lamp.irradiance_830_per_lux)};
 }
+
+/// Illuminance by a sky or a sun with the lighting's spectral irradiance at 830 nm per lux.
+Spectrum DaylightSpectrum(double illuminance_lx, const Lighting& lighting);
+
+/// Exitance of the unobstructed ground: ρ_g (E_sky + E_sun sin γ_sun).
+Spectrum GroundExitance(const Lighting& lighting);
+
+/// The sun's illuminance; 0 below the horizon.
+double SunIlluminance(const Lighting& lighting);
 
 /// One quantity in which light is measured.
 enum class Channel { kLuminance, kRed, kGreen, kBlue, kInfrared, kIlluminance, kIrradiance830 };

@@ -45,9 +45,9 @@ PixelPatches PixelSampler::PatchOf(Film::Pixel pixel) const {
 PixelPoints PixelSampler::SamplePoints(Film::Pixel pixel, int first) const {
   Lanes<uint32_t> net_x;
   Lanes<uint32_t> net_y;
-  std::copy_n(&kNetTable.x[static_cast<size_t>(first)], kLanes, net_x.data());
-  std::copy_n(&kNetTable.y[static_cast<size_t>(first)], kLanes, net_y.data());
-  const NetPoint seeds = SeedsOf(pixel);
+  std::copy_n(&kSobolTable.x[static_cast<size_t>(first)], kLanes, net_x.data());
+  std::copy_n(&kSobolTable.y[static_cast<size_t>(first)], kLanes, net_y.data());
+  const SobolPoint seeds = SeedsOf(pixel);
   return ScrambledPoints(net_x, net_y, AllLanes(seeds.x), AllLanes(seeds.y));
 }
 
@@ -126,7 +126,7 @@ void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) co
     const auto j = static_cast<size_t>(sample);
     const LightTransport::Arriving arriving =
         Trace(all, patches,
-              ScrambledPoints(AllLanes(kNetTable.x[j]), AllLanes(kNetTable.y[j]), block.seed_x,
+              ScrambledPoints(AllLanes(kSobolTable.x[j]), AllLanes(kSobolTable.y[j]), block.seed_x,
                               block.seed_y));
     if (sample == 0) {
       sums = arriving;

@@ -19,7 +19,7 @@ class PixelSampler {
   size_t channel_count() const { return static_cast<size_t>(light_.channel_count()); }
 
   /// The scrambling seeds of a pixel.
-  NetPoint SeedsOf(Film::Pixel pixel) const { return scramble_.OfPixel(IndexOf(pixel)); }
+  SobolPoint SeedsOf(Film::Pixel pixel) const { return scramble_.OfPixel(IndexOf(pixel)); }
 
   /// The pixel in all lanes.
   PixelPatches PatchOf(Film::Pixel pixel) const;

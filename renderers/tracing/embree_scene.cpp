@@ -1,5 +1,8 @@
 #include "renderers/tracing/embree_scene.h"
 
+#include <embree3/rtcore.h>
+#include <fmt/format.h>
+
 #include <cstring>
 #include <stdexcept>
 
@@ -83,6 +86,13 @@ void EmbreeScene::PassHoles(const RTCFilterFunctionNArguments* arguments) {
       arguments->valid[i] = 0;
     }
   }
+}
+
+std::string EmbreeVersion() {
+  const RTCDevice device = rtcNewDevice("threads=1");
+  const auto version = rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_VERSION);
+  rtcReleaseDevice(device);
+  return fmt::format("{}.{}.{}", version / 10000, version / 100 % 100, version % 100);
 }
 
 }  // namespace fenestra

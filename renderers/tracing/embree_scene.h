@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "renderers/tracing/packet.h"
 #include "renderers/tracing/render_types.h"
@@ -91,5 +92,8 @@ class EmbreeScene {
   uint32_t holed_first_ = 0;
   HoleTest hole_test_;
 };
+
+/// "3.13.5": of the Embree library that is loaded.
+std::string EmbreeVersion();
 
 }  // namespace fenestra

@@ -4,7 +4,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-#include "scenes/texture.h"
+#include "scenes/scene.h"
 
 namespace fenestra {
 

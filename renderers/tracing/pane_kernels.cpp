@@ -1,10 +1,8 @@
 #include "renderers/tracing/pane_kernels.h"
 
-#include <cmath>
 #include <limits>
 
 #include "core/system/wide.h"
-#include "renderers/tracing/fresnel.h"
 
 namespace fenestra {
 namespace {

@@ -11,13 +11,13 @@ namespace fenestra {
 /// which keeps it too, is not enough: it leaves the points' diagonal rows in place, and the error
 /// at an edge of 45° is then twice that at other angles.
 /// Sources: I. M. Sobol', 1967; A. B. Owen, "Randomly permuted (t,m,s)-nets", 1995.
-struct NetPoint {
+struct SobolPoint {
   uint32_t x;
   uint32_t y;
 };
 
-constexpr NetPoint SobolPoint(uint32_t index) {
-  NetPoint point{0, 0};
+constexpr SobolPoint NthSobolPoint(uint32_t index) {
+  SobolPoint point{0, 0};
   uint32_t vx = 1u << 31;
   uint32_t vy = 1u << 31;
   for (; index != 0; index >>= 1) {
@@ -33,7 +33,7 @@ constexpr NetPoint SobolPoint(uint32_t index) {
 
 inline constexpr int kMostPixelSamples = 256;
 
-struct NetTable {
+struct SobolTable {
   /// With their bits in reverse, least significant bit first, as OwenScrambled wants them.
   alignas(64) std::array<uint32_t, kMostPixelSamples> x;
   alignas(64) std::array<uint32_t, kMostPixelSamples> y;
@@ -61,17 +61,17 @@ constexpr uint32_t OwenScrambled(uint32_t reversed, uint32_t seed) {
   return ReverseBits(b);
 }
 
-constexpr NetTable MakeNetTable() {
-  NetTable table{};
+constexpr SobolTable MakeSobolTable() {
+  SobolTable table{};
   for (uint32_t i = 0; i < kMostPixelSamples; ++i) {
-    const NetPoint point = SobolPoint(i);
+    const SobolPoint point = NthSobolPoint(i);
     table.x[i] = ReverseBits(point.x);
     table.y[i] = ReverseBits(point.y);
   }
   return table;
 }
 
-inline constexpr NetTable kNetTable = MakeNetTable();
+inline constexpr SobolTable kSobolTable = MakeSobolTable();
 
 /// A binary fraction to [0, 1); 24 bits, so that the result is below 1 in single precision.
 constexpr float ToUnit(uint32_t fraction) {
@@ -95,8 +95,8 @@ struct ImageScramble {
   constexpr explicit ImageScramble(uint64_t key)
       : x(Hashed(static_cast<uint32_t>(key))), y(Hashed(static_cast<uint32_t>(key >> 32))) {}
 
-  /// The scrambling seeds of a pixel.
-  constexpr NetPoint OfPixel(uint32_t pixel) const {
+  /// The scrambling seeds of a pixel, along x and along y.
+  constexpr SobolPoint OfPixel(uint32_t pixel) const {
     const uint32_t seed = Hashed(pixel + x);
     return {seed, Hashed(seed ^ y)};
   }

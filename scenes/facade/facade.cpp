@@ -5,13 +5,11 @@
 #include <numbers>
 #include <utility>
 
-#include "scenes/facade/facade_blind.h"
 #include "scenes/facade/facade_check.h"
 #include "scenes/facade/facade_glazing.h"
-#include "scenes/facade/facade_pipework.h"
+#include "scenes/facade/facade_parts.h"
 #include "scenes/facade/facade_plan.h"
 #include "scenes/facade/facade_plant.h"
-#include "scenes/facade/facade_shutters.h"
 #include "scenes/facade/masonry.h"
 #include "scenes/facade/wall_texture.h"
 

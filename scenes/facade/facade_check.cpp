@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/io/faults.h"
+#include "scenes/facade/facade_parts.h"
 #include "scenes/facade/facade_plan.h"
-#include "scenes/facade/facade_shutters.h"
 #include "scenes/facade/wall_texture.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scenes/facade/facade_shutters.h"
+#include "scenes/facade/facade_parts.h"
 #include "scenes/mesh/longest_edge_bisection.h"
 
 namespace fenestra {

@@ -13,7 +13,7 @@
 namespace fenestra {
 namespace {
 
-// Limits of automatic exposure: the shortest line time and one frame at 30 Hz.
+// Limits of automatic exposure: the shortest line time and one image at 30 Hz.
 constexpr double kShortestExposure = 20e-6;
 constexpr double kLongestExposure = 1.0 / 30.0;
 
@@ -150,9 +150,9 @@ cv::Mat3b ColorCamera::Observe(const RayCaster& caster, const Lighting& lighting
 }
 
 cv::Mat1b ColorCamera::Develop(const cv::Mat1f& electrons_per_s, double exposure_s,
-                               const RandomStream& frame) const {
+                               const RandomStream& noise) const {
   const cv::Mat1w dn =
-      sensor_.Expose(electrons_per_s, {.exposure_s = exposure_s, .gain = 1.0}, frame);
+      sensor_.Expose(electrons_per_s, {.exposure_s = exposure_s, .gain = 1.0}, noise);
   // Black is taken away before the encoding. A code for each value that the sensor gives.
   const double black_dn = sensor_.BlackLevelDn();
   const double per_dn = 1.0 / (sensor_.FullScaleDn() - black_dn);

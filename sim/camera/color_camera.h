@@ -68,7 +68,7 @@ class ColorCamera {
   /// Fixed, or such that the encoded image's mean is mean_dn; B, G, R in electrons per second.
   double Exposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const;
   cv::Mat1b Develop(const cv::Mat1f& electrons_per_s, double exposure_s,
-                    const RandomStream& frame) const;
+                    const RandomStream& noise) const;
 
   /// Luminance on the sensor, averaged over each row's exposure.
   QuarterImages LightDuring(double exposure_s, const RayCaster& caster, const Lighting& lighting,

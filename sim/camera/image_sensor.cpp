@@ -31,8 +31,8 @@ cv::Mat1f Normals(const RandomStream& stream, cv::Size size) {
   return normals;
 }
 
-// The constants of one frame, in single precision.
-struct Frame {
+// The constants of one image, in single precision.
+struct Readout {
   float exposure_s;
   float dark_e;
   float read_variance_e2;
@@ -43,9 +43,9 @@ struct Frame {
 
 // Photo-electrons of a row, with sensitivities where there are any.
 FENESTRA_WIDE void CollectRow(const float* electrons_per_s, const float* sensitivity,
-                              const Frame& frame, float* mean_e, int count) {
+                              const Readout& readout, float* mean_e, int count) {
   for (int u = 0; u < count; ++u) {
-    mean_e[u] = electrons_per_s[u] * sensitivity[u] * frame.exposure_s + frame.dark_e;
+    mean_e[u] = electrons_per_s[u] * sensitivity[u] * readout.exposure_s + readout.dark_e;
   }
 }
 
@@ -62,11 +62,11 @@ FENESTRA_WIDE void AddNoiseRow(const float* z, float read_variance_e2, float* me
 }
 
 FENESTRA_WIDE void DigitiseRow(const float* electrons, const float* offset_e, float row_offset_e,
-                               const Frame& frame, int shift, uint16_t* dn, int count) {
+                               const Readout& readout, int shift, uint16_t* dn, int count) {
   for (int u = 0; u < count; ++u) {
     const float value =
-        frame.black_dn + frame.dn_per_e * (electrons[u] + offset_e[u] + row_offset_e) + 0.5f;
-    const float clipped = std::min(std::max(value, 0.0f), frame.full_scale_dn);
+        readout.black_dn + readout.dn_per_e * (electrons[u] + offset_e[u] + row_offset_e) + 0.5f;
+    const float clipped = std::min(std::max(value, 0.0f), readout.full_scale_dn);
     dn[u] = static_cast<uint16_t>(static_cast<int>(clipped) >> shift);
   }
 }
@@ -130,9 +130,9 @@ double ImageSensor::DarkElectrons(double exposure_s) const {
 }
 
 cv::Mat1w ImageSensor::Expose(const cv::Mat1f& electrons_per_s, const ExposureSetting& exposure,
-                              const RandomStream& frame) const {
+                              const RandomStream& noise) const {
   FENESTRA_CHECK(electrons_per_s.size() == size_, "the image must have the sensor's size");
-  const Frame constants{
+  const Readout constants{
       .exposure_s = static_cast<float>(exposure.exposure_s),
       .dark_e = static_cast<float>(DarkElectrons(exposure.exposure_s)),
       .read_variance_e2 = static_cast<float>(options_.read_noise_e * options_.read_noise_e),
@@ -145,8 +145,8 @@ cv::Mat1w ImageSensor::Expose(const cv::Mat1f& electrons_per_s, const ExposureSe
   std::vector<float> row_offsets_e(static_cast<size_t>(size_.height), 0.0f);
   cv::Mat1f z;
   if (options_.noise) {
-    z = Normals(frame, size_);
-    frame.Child("rows").FillNormals(row_offsets_e);
+    z = Normals(noise, size_);
+    noise.Child("rows").FillNormals(row_offsets_e);
     for (float& offset : row_offsets_e) offset *= static_cast<float>(options_.row_noise_e);
   }
   const int shift = options_.adc_bits - options_.output_bits;

@@ -13,7 +13,7 @@ namespace fenestra {
 ///     y = floor(y_0 + g K N + 1/2),  clipped to the ADC's range,
 ///
 /// shifted right to the output's bits. n₁ and n₃ are fixed for each pixel of one camera, n₂ is new
-/// in each pixel and n₄ in each row of each frame; all are standard normal. y_0: black level;
+/// in each pixel and n₄ in each row of each image; all are standard normal. y_0: black level;
 /// g: analogue gain; K = (largest ADC value - y_0)/saturation_e. Dark current
 /// μ_I(T) = μ_I(25 °C) 2^((T - 25 °C)/T_d).
 ///
@@ -33,14 +33,14 @@ struct ImageSensorOptions {
   int adc_bits = 10;                     ///< MT9V032.
   int output_bits = 8;                   ///< As the camera is run; at most adc_bits.
   double black_level_dn = 32.0;          ///< Of the ADC; high enough for dark noise at gain 4.
-  bool noise = true;                     ///< All that differs from frame to frame.
+  bool noise = true;                     ///< All that differs from image to image.
   bool fixed_pattern = true;             ///< DSNU and PRNU.
 };
 
 /// Throws InputError with all faults; `who` names the camera in them.
 void Validate(const ImageSensorOptions& options, const char* who);
 
-/// How a frame is exposed.
+/// How an image is exposed.
 struct ExposureSetting {
   double exposure_s = 0.0;
   double gain = 1.0;  ///< Analogue, before the ADC.
@@ -53,7 +53,7 @@ struct ExposureOptions {
   double exposure_s = 2e-3;       ///< Used when not automatic.
   double gain = 1.0;              ///< Used when not automatic.
   double shortest_s = 80e-6;      ///< uEye UI-122x, IDS manual.
-  double longest_s = 1.0 / 60.0;  ///< One frame at 60 Hz.
+  double longest_s = 1.0 / 60.0;  ///< One image at 60 Hz.
   double largest_gain = 4.0;      ///< MT9V032: 1–4.
 };
 
@@ -79,15 +79,15 @@ class ImageSensor {
   /// Largest output value.
   int FullScaleDn() const { return (1 << options_.output_bits) - 1; }
 
-  /// One frame [output DN]. electrons_per_s: mean photo-electrons per pixel and second, of the
-  /// sensor's size. `frame` tells this frame's noise from others'.
+  /// One image [output DN]. electrons_per_s: mean photo-electrons per pixel and second, of the
+  /// sensor's size. `noise`: the stream of this image's noise.
   ///
   /// The sum of the Poisson and the normal law is drawn from one normal variate z by its
   /// Cornish–Fisher expansion: exact in mean and variance, and in skewness to second order. Close
   /// while the total variance is above 4 e²: cameras with less noise than σ_d = 2 e show a
   /// difference in their darkest pixels.
   cv::Mat1w Expose(const cv::Mat1f& electrons_per_s, const ExposureSetting& exposure,
-                   const RandomStream& frame) const;
+                   const RandomStream& noise) const;
 
  private:
   ImageSensorOptions options_;

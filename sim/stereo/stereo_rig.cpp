@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "core/io/faults.h"
-#include "core/random/random_pose.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 namespace {
@@ -230,8 +230,8 @@ StereoObservation StereoRig::Expose(const cv::Mat1f& left, const cv::Mat1f& righ
                                     const ExposureSetting& exposure,
                                     const RandomStream& shot) const {
   const auto image_of = [&](const Camera& camera, const cv::Mat1f& electrons_per_s,
-                            const RandomStream& frame) {
-    const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, frame);
+                            const RandomStream& noise) {
+    const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, noise);
     // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
     cv::Mat1b image;
     dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));

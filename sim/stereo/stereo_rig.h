@@ -11,7 +11,6 @@
 #include "sim/camera/spectral_response.h"
 #include "sim/motion/rig_motion.h"
 #include "sim/truth/ground_truth.h"
-#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 

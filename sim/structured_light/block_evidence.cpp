@@ -1,14 +1,16 @@
 #include "sim/structured_light/block_evidence.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
+#include <numbers>
 
 #include "core/system/wide.h"
 
 namespace fenestra {
 namespace {
 
-// Fields of WindowEvidence: those that a window's own disparity has a part in, and those that it
+// Fields of BlockEvidence: those that a block's own disparity has a part in, and those that it
 // has not, which are gathered column by column and then row by row.
 enum OwnField { kEvidence, kMoment, kDisparity, kOwnFields };
 enum BoxField { kDots, kDots2, kAmbient, kSmooth2, kStrongest, kStrongestDisparity, kBoxFields };
@@ -30,7 +32,7 @@ struct Pixel {
   float narrowness;
 };
 
-// Adds one pixel of each window: that at the same place of all of them.
+// Adds one pixel of each block: that at the same place of all of them.
 FENESTRA_WIDE void AddEvidence(const float* __restrict dots, const float* __restrict places,
                                const float* __restrict disparity, Pixel p, float* __restrict sums,
                                int count) {
@@ -53,7 +55,7 @@ FENESTRA_WIDE void AddEvidence(const float* __restrict dots, const float* __rest
   }
 }
 
-// Adds one row of the windows to the sums over their columns.
+// Adds one row of the blocks to the sums over their columns.
 FENESTRA_WIDE void AddRow(const float* __restrict dots, const float* __restrict ambient,
                           const float* __restrict places, float weight, float pattern_mean,
                           float* __restrict columns, int count) {
@@ -72,7 +74,7 @@ FENESTRA_WIDE void AddRow(const float* __restrict dots, const float* __restrict 
   }
 }
 
-// Adds the columns that are at the same place of all windows; `stride`: from one field of the
+// Adds the columns that are at the same place of all blocks; `stride`: from one field of the
 // columns to the next.
 FENESTRA_WIDE void AddColumn(const float* __restrict columns, int stride, float weight,
                              float* __restrict sums, int count) {
@@ -92,17 +94,23 @@ FENESTRA_WIDE void AddColumn(const float* __restrict columns, int stride, float 
   }
 }
 
+// The x that a standard normal number exceeds with this probability.
+double NormalWithTail(double probability) {
+  using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  return std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * probability, InDouble());
+}
+
 }  // namespace
 
-WindowGatherer::WindowGatherer(double width_px, double height_px, double pattern_mean,
-                               double spread_px)
+BlockGatherer::BlockGatherer(double width_px, double height_px, double pattern_mean,
+                             double spread_px)
     : weights_u_(Weights(width_px)),
       weights_v_(Weights(height_px)),
       pattern_mean_(static_cast<float>(pattern_mean)),
       narrowness_(static_cast<float>(1.0 / (4.0 * spread_px * spread_px))) {}
 
-std::vector<WindowEvidence> WindowGatherer::Gather(const WindowLight& light, cv::Point first,
-                                                   const float* disparity_px, int count) const {
+std::vector<BlockEvidence> BlockGatherer::Gather(const BlockLight& light, cv::Point first,
+                                                 const float* disparity_px, int count) const {
   cv::Mat1f own = cv::Mat1f::zeros(kOwnFields, count);
   cv::Mat1f columns = cv::Mat1f::zeros(kBoxFields, count + 2 * reach_u());
   cv::Mat1f box = cv::Mat1f::zeros(kBoxFields, count);
@@ -123,31 +131,52 @@ std::vector<WindowEvidence> WindowGatherer::Gather(const WindowLight& light, cv:
   for (int x = 0; x <= 2 * reach_u(); ++x) {
     AddColumn(columns[0] + x, columns.cols, weights_u_[static_cast<size_t>(x)], box[0], count);
   }
-  std::vector<WindowEvidence> windows;
-  windows.reserve(static_cast<size_t>(count));
+  std::vector<BlockEvidence> blocks;
+  blocks.reserve(static_cast<size_t>(count));
   for (int i = 0; i < count; ++i) {
-    windows.push_back({.dots = box(kDots, i),
-                       .dots2 = box(kDots2, i),
-                       .ambient = box(kAmbient, i),
-                       .smooth2 = box(kSmooth2, i),
-                       .evidence = own(kEvidence, i),
-                       .moment = own(kMoment, i),
-                       .disparity = own(kDisparity, i),
-                       .strongest = box(kStrongest, i),
-                       .strongest_disparity = box(kStrongestDisparity, i)});
+    blocks.push_back({.dots = box(kDots, i),
+                      .dots2 = box(kDots2, i),
+                      .ambient = box(kAmbient, i),
+                      .smooth2 = box(kSmooth2, i),
+                      .evidence = own(kEvidence, i),
+                      .moment = own(kMoment, i),
+                      .disparity = own(kDisparity, i),
+                      .strongest = box(kStrongest, i),
+                      .strongest_disparity = box(kStrongestDisparity, i)});
   }
-  return windows;
+  return blocks;
 }
 
-std::vector<WindowEvidence> WindowGatherer::Row(const WindowLight& light, int v) const {
+std::vector<BlockEvidence> BlockGatherer::Row(const BlockLight& light, int v) const {
   const int count = light.dots_dn.cols - 2 * reach_u();
   if (count <= 0 || v < reach_v() || v + reach_v() >= light.dots_dn.rows) return {};
   return Gather(light, {reach_u(), v}, light.disparity_px[v] + reach_u(), count);
 }
 
-WindowEvidence WindowGatherer::At(const WindowLight& light, cv::Point pixel,
-                                  float disparity_px) const {
+BlockEvidence BlockGatherer::At(const BlockLight& light, cv::Point pixel,
+                                float disparity_px) const {
   return Gather(light, pixel, &disparity_px, 1).front();
+}
+
+double NormalShare(double x) {
+  return 0.5 * std::erfc(-x / std::numbers::sqrt2);
+}
+
+double SumOfGaussian(double w) {
+  double along = 1.0;
+  for (int k = 1; k < 8; ++k) along += 2.0 * std::exp(-k * k / w);
+  return along * along;
+}
+
+float ChanceMatch::Best(float enough, float nu) const {
+  const double least = static_cast<double>(enough) / deviation;
+  // Spares most blocks the functions: 1000 Φ(-5) = Φ(-3.4).
+  if (least > 5.0 && nu < 3.4f && places < 1000.0) return -1.0f;
+  const double share = NormalShare(static_cast<double>(nu));
+  if (share <= std::pow(NormalShare(least), places)) return -1.0f;
+  // The upper tail: 1 - Φ(x/σ) = 1 - Φ(ν)^(1/N).
+  const double tail = -std::expm1(std::log(share) / places);
+  return static_cast<float>(deviation * NormalWithTail(tail));
 }
 
 }  // namespace fenestra

@@ -6,52 +6,67 @@
 namespace fenestra {
 
 /// What the pixels of a depth image receive from the projector and from around.
-struct WindowLight {
+struct BlockLight {
   cv::Mat1f dots_dn;       ///< s: of a dot.
   cv::Mat1f ambient_dn;    ///< a.
   cv::Mat1f disparity_px;  ///< d [px of a 640-wide image]; kNoDisparity where nothing is hit.
   static constexpr float kNoDisparity = 1e6f;
 };
 
-/// Weighted means ⟨·⟩ over a window; e = s exp(-(d_i - d)²/4σ²) is a pixel's evidence for the
+/// Weighted means ⟨·⟩ over a block; e = s exp(-(d_i - d)²/4σ²) is a pixel's evidence for the
 /// disparity d.
-struct WindowEvidence {
+struct BlockEvidence {
   float dots = 0.0f;       ///< ⟨s⟩
   float dots2 = 0.0f;      ///< ⟨s²⟩
   float ambient = 0.0f;    ///< ⟨a⟩
   float smooth2 = 0.0f;    ///< ⟨(m s + a)²⟩, m: mean of the pattern.
   float evidence = 0.0f;   ///< ⟨e⟩
-  float moment = 0.0f;     ///< ⟨e x⟩; x: columns from the window's centre.
+  float moment = 0.0f;     ///< ⟨e x⟩; x: columns from the block's centre.
   float disparity = 0.0f;  ///< ⟨e d⟩
   float strongest = 0.0f;  ///< Greatest s.
   float strongest_disparity = 0.0f;
 };
 
-/// Gathers windows whose sides are not whole pixels: the outermost ones count in part.
-class WindowGatherer {
+/// Gathers blocks whose sides are not whole pixels: the outermost ones count in part.
+class BlockGatherer {
  public:
   /// Sides in pixels of the images; pattern_mean: m; spread_px: σ.
-  WindowGatherer(double width_px, double height_px, double pattern_mean, double spread_px);
+  BlockGatherer(double width_px, double height_px, double pattern_mean, double spread_px);
 
-  /// Columns or rows from the centre to the outermost pixels of a window.
+  /// Columns or rows from the centre to the outermost pixels of a block.
   int reach_u() const { return static_cast<int>(weights_u_.size()) / 2; }
   int reach_v() const { return static_cast<int>(weights_v_.size()) / 2; }
 
-  /// Of windows around the pixels of row v that lie in the image whole, for the disparities of
+  /// Of blocks around the pixels of row v that lie in the image whole, for the disparities of
   /// their own centres; the first is that around column reach_u().
-  std::vector<WindowEvidence> Row(const WindowLight& light, int v) const;
-  /// Of the window around a pixel, for this disparity.
-  WindowEvidence At(const WindowLight& light, cv::Point pixel, float disparity_px) const;
+  std::vector<BlockEvidence> Row(const BlockLight& light, int v) const;
+  /// Of the block around a pixel, for this disparity.
+  BlockEvidence At(const BlockLight& light, cv::Point pixel, float disparity_px) const;
 
  private:
-  /// Windows around `count` pixels from `first` on, for as many disparities.
-  std::vector<WindowEvidence> Gather(const WindowLight& light, cv::Point first,
-                                     const float* disparity_px, int count) const;
+  /// Blocks around `count` pixels from `first` on, for as many disparities.
+  std::vector<BlockEvidence> Gather(const BlockLight& light, cv::Point first,
+                                    const float* disparity_px, int count) const;
 
   std::vector<float> weights_u_;  ///< Of columns; their sum is 1, as is that of the rows.
   std::vector<float> weights_v_;
   float pattern_mean_;
   float narrowness_;  ///< 1/4σ².
 };
+
+/// The greatest of N independent normal numbers of mean 0 and deviation σ: P(best < x) = Φ(x/σ)^N.
+struct ChanceMatch {
+  double deviation;
+  double places;  ///< N ≥ 1.
+
+  /// Drawn by the standard normal number ν, if it is more than `enough`; else -1.
+  float Best(float enough, float nu) const;
+};
+
+/// Φ, the distribution of a standard normal number.
+double NormalShare(double x);
+
+/// Σ exp(-k²/w) over all pixels k of a plane.
+double SumOfGaussian(double w);
 
 }  // namespace fenestra

@@ -2,28 +2,30 @@
 
 #include "core/detection/depth_reprojection.h"
 #include "renderers/ray_caster.h"
-#include "sim/structured_light/depth_frame.h"
+#include "sim/structured_light/missing_return.h"
 
 namespace fenestra {
 
-/// Registers depth frames to the colour camera, as drivers do: every pixel is carried to where the
-/// colour camera sees it. What only the colour camera sees becomes a hole at the foreground's edge.
+/// Registers depth images to the colour camera, as drivers do: every pixel is reprojected to where
+/// the colour camera sees it. What only the colour camera sees becomes a hole at the foreground's
+/// edge.
 class DepthRegistrar {
  public:
-  /// `depth`: the camera D of the frames; `registered`: that of the result, at the colour camera K.
+  /// `depth`: the camera D of the depth images; `registered`: that of the result, at the colour
+  /// camera K.
   DepthRegistrar(const CameraModel& depth, const Pose& X_KD, const CameraModel& registered);
 
-  /// The reasons of holes are those of the depth pixels that should have been carried there.
-  DepthFrame Register(const DepthFrame& frame, const RayCaster& caster, const Lighting& lighting,
-                      const Pose& X_WK) const;
+  /// The reasons of holes are those of the depth pixels that should have been reprojected there.
+  ExplainedDepth Register(const ExplainedDepth& depth, const RayCaster& caster,
+                          const Lighting& lighting, const Pose& X_WK) const;
 
  private:
-  NoReturn Reason(const DepthFrame& frame, cv::Point pixel, float z_m) const;
+  NoReturn Reason(const ExplainedDepth& depth, cv::Point pixel, float z_m) const;
 
   CameraModel depth_;
   Pose X_DK_;
   RayGrid rays_;  ///< Of the registered camera.
-  DepthCarrier carrier_;
+  DepthReprojection reprojection_;
 };
 
 }  // namespace fenestra

@@ -24,7 +24,7 @@ struct Ray {
   cv::Point place;  // In aovs.
   Eigen::Vector3d direction;
 };
-cv::Vec2f LightAlong(const InfraredOptions& o, const GatheredPattern& pattern, const Ray& ray,
+cv::Vec2f LightAlong(const InfraredOptions& o, const SampledPattern& pattern, const Ray& ray,
                      cv::Point pixel, double fx_px, const Eigen::Vector3d& p_CP) {
   const InfraredLight light = InfraredLightAt(o, ray.aovs, ray.place, ray.direction, p_CP);
   double dots_dn = 0.0;
@@ -36,7 +36,7 @@ cv::Vec2f LightAlong(const InfraredOptions& o, const GatheredPattern& pattern, c
 }
 
 // Light of dots and ambient light at each pixel [DN].
-cv::Mat2f GatheredLight(const InfraredOptions& o, const GatheredPattern& pattern,
+cv::Mat2f GatheredLight(const InfraredOptions& o, const SampledPattern& pattern,
                         const InfraredRays& rays, const InfraredView& view,
                         const Eigen::Vector3d& p_CP) {
   const double fx_px = rays.camera().parameters().fx_px;
@@ -100,14 +100,14 @@ InfraredLight InfraredLightAt(const InfraredOptions& o, const AovImages& aovs, c
   return light;
 }
 
-cv::Mat1w InfraredImage(const InfraredOptions& o, const GatheredPattern& pattern,
+cv::Mat1w InfraredImage(const InfraredOptions& o, const SampledPattern& pattern,
                         const InfraredRays& rays, const InfraredView& view,
                         const Eigen::Vector3d& p_CP, const RandomStream& surface,
-                        const RandomStream& frame) {
+                        const RandomStream& noise) {
   const cv::Size size = rays.size();
   const auto count = static_cast<size_t>(size.area());
   const std::vector<float> speckle = Normals(surface, count);
-  const std::vector<float> noise = Normals(frame, count);
+  const std::vector<float> deviates = Normals(noise, count);
   const cv::Mat2f light = GatheredLight(o, pattern, rays, view, p_CP);
   cv::Mat1w image(size);
   size_t i = 0;
@@ -118,7 +118,7 @@ cv::Mat1w InfraredImage(const InfraredOptions& o, const GatheredPattern& pattern
       double dn = static_cast<double>(dots_and_ambient[0]) * std::max(0.0, 1.0 + contrast) +
                   static_cast<double>(dots_and_ambient[1]);
       const double deviation = std::sqrt(o.dark_noise_dn * o.dark_noise_dn + o.shot_noise_dn * dn);
-      dn += deviation * static_cast<double>(noise[i]);
+      dn += deviation * static_cast<double>(deviates[i]);
       image(v, u) = static_cast<uint16_t>(std::lround(std::clamp(dn, 0.0, o.saturation_dn)));
     }
   }

@@ -4,8 +4,8 @@
 
 #include "core/random/random_stream.h"
 #include "renderers/tracing/render_types.h"
+#include "sim/structured_light/dot_pattern.h"
 #include "sim/structured_light/infrared_view.h"
-#include "sim/structured_light/sampled_pattern.h"
 
 namespace fenestra {
 
@@ -28,8 +28,8 @@ struct InfraredOptions {
   /// Spread of a dot, projector and camera together, besides the pixel's area [cells]. Chosen.
   double dot_sigma_px = 0.45;
   /// Standard deviation of a dot's brightness over its mean from pixel to pixel, by the laser's
-  /// speckle: it belongs to the surface and the pose, so that it does not change from frame to
-  /// frame. Grains of 1.22 λ N = 2 µm (f/2) in pixels of 10.4 µm, of one polarisation: 1/√27.
+  /// speckle: it belongs to the surface and the pose, so that it does not change from image to
+  /// image. Grains of 1.22 λ N = 2 µm (f/2) in pixels of 10.4 µm, of one polarisation: 1/√27.
   double speckle_contrast = 0.19;
 };
 
@@ -51,10 +51,11 @@ InfraredLight InfraredLightAt(const InfraredOptions& options, const AovImages& a
 
 /// The 10-bit image: at a surface of depth z a pixel in column u shows the pattern at u - f b/z. A
 /// pixel that an outline or a shadow crosses gets the mean of its parts' light. p_CP: the
-/// projector. `surface`: tells this view's laser speckle from others'; `frame`: this frame's noise.
-cv::Mat1w InfraredImage(const InfraredOptions& options, const GatheredPattern& pattern,
+/// projector. `surface`: the stream of this view's laser speckle; `noise`: that of
+/// this image's noise.
+cv::Mat1w InfraredImage(const InfraredOptions& options, const SampledPattern& pattern,
                         const InfraredRays& rays, const InfraredView& view,
                         const Eigen::Vector3d& p_CP, const RandomStream& surface,
-                        const RandomStream& frame);
+                        const RandomStream& noise);
 
 }  // namespace fenestra

@@ -22,7 +22,7 @@ CameraModel ScaledUp(const CameraModel& depth, int scale) {
 
 }  // namespace
 
-SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
+MatchedDepth::MatchedDepth(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                            const CameraModel& depth, int scale, double baseline_m,
                            const DisparityRange& range, const RollingShutter& shutter)
     : infrared_(Validated(infrared)),
@@ -36,26 +36,26 @@ SpeckleDepth::SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchin
       matcher_(matching, infrared, pattern_, rays_.size(), 0.0,
                matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth) {}
 
-cv::Mat1w SpeckleDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
+cv::Mat1w MatchedDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
                                         const Pose& X_WB, const RandomStream& shot,
-                                        const RandomStream& frame) const {
+                                        const RandomStream& image_noise) const {
   const InfraredView view = rays_.Cast(caster, X_WB, lighting, p_CP_);
   return InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
-                       frame.Child("infrared_noise"));
+                       image_noise.Child("infrared_noise"));
 }
 
-DepthFrame SpeckleDepth::Observe(const RayCaster& caster, const Lighting& lighting,
-                                 const Pose& X_WB, double unit_m, const RandomStream& shot,
-                                 const RandomStream& frame) const {
+ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& lighting,
+                                     const Pose& X_WB, double unit_m, const RandomStream& shot,
+                                     const RandomStream& image_noise) const {
   const InfraredView view = rays_.Cast(caster, X_WB, lighting, p_CP_);
   const cv::Mat1w infrared =
       InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
-                    frame.Child("infrared_noise"));
-  const SpeckleMatches matches = matcher_.Match(infrared, scale_);
+                    image_noise.Child("infrared_noise"));
+  const PatternMatches matches = matcher_.Match(infrared, scale_);
   const double to_640 = DisparityRange::kImageWidth / rays_.size().width;
-  DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
-                    .no_return = cv::Mat1b::zeros(depth_size_),
-                    .infrared = infrared};
+  ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
+                        .no_return = cv::Mat1b::zeros(depth_size_),
+                        .infrared = infrared};
   for (int v = 0; v < depth_size_.height; ++v) {
     for (int u = 0; u < depth_size_.width; ++u) {
       const cv::Point pixel(scale_ * u, scale_ * v);
@@ -71,9 +71,9 @@ DepthFrame SpeckleDepth::Observe(const RayCaster& caster, const Lighting& lighti
   return result;
 }
 
-NoReturn SpeckleDepth::Reason(const AovImages& aovs, cv::Point pixel,
-                              const SpeckleMatches& matches) const {
-  // Windows that straddle an outline match beyond it; where nothing is, no depth shall stand.
+NoReturn MatchedDepth::Reason(const AovImages& aovs, cv::Point pixel,
+                              const PatternMatches& matches) const {
+  // Blocks that straddle an outline match beyond it; where nothing is, no depth shall stand.
   if (!std::isfinite(aovs.depth_m(pixel))) return NoReturn::kNoSurface;
   if (std::isfinite(matches.disparity_px(pixel))) return NoReturn::kNone;
   if (matches.correlation(pixel) <= -1.0f) return NoReturn::kBorder;

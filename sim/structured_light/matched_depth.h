@@ -1,45 +1,46 @@
 #pragma once
 
 #include "core/geometry/camera_model.h"
-#include "sim/structured_light/depth_frame.h"
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
 #include "sim/structured_light/infrared_view.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {
 
 /// Depth from an infra-red image of the projected dots, as the sensor itself finds it.
-class SpeckleDepth {
+class MatchedDepth {
  public:
   /// `depth`: the camera whose pixels the depth image has. The infra-red image is `scale` times as
   /// wide and high; depth pixel (u, v) is its pixel (scale u, scale v).
-  SpeckleDepth(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
+  MatchedDepth(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                const CameraModel& depth, int scale, double baseline_m, const DisparityRange& range,
                const RollingShutter& shutter);
 
-  /// `unit_m`: of the depth image. `shot`: tells this view's laser speckle from others', `frame`
-  /// this frame's noise.
-  DepthFrame Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                     double unit_m, const RandomStream& shot, const RandomStream& frame) const;
+  /// `unit_m`: the unit of the depth image. `shot`: the stream of this view's laser speckle;
+  /// `image_noise`: that of this image's own noise.
+  ExplainedDepth Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                         double unit_m, const RandomStream& shot,
+                         const RandomStream& image_noise) const;
 
   /// The infra-red image alone, 10 bits.
   cv::Mat1w ObserveInfrared(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                            const RandomStream& shot, const RandomStream& frame) const;
+                            const RandomStream& shot, const RandomStream& image_noise) const;
 
  private:
   /// Why the infra-red image's pixel has no match.
-  NoReturn Reason(const AovImages& aovs, cv::Point pixel, const SpeckleMatches& matches) const;
+  NoReturn Reason(const AovImages& aovs, cv::Point pixel, const PatternMatches& matches) const;
 
   InfraredOptions infrared_;
-  SpeckleMatchingOptions matching_;
+  PatternMatchingOptions matching_;
   DisparityRange range_;
   Eigen::Vector3d p_CP_;
   int scale_;
   cv::Size depth_size_;
   InfraredRays rays_;
-  GatheredPattern pattern_;
-  SpeckleMatcher matcher_;
+  SampledPattern pattern_;
+  PatternMatcher matcher_;
 };
 
 }  // namespace fenestra

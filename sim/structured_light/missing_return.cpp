@@ -12,7 +12,7 @@ NoReturn MissingReturn::Reason(const AovImages& aovs, cv::Point pixel) const {
   const Eigen::Vector3d ray((pixel.x - k.cx_px) / k.fx_px, (pixel.y - k.cy_px) / k.fy_px, 1.0);
   const InfraredLight light = InfraredLightAt(infrared_, aovs, pixel, ray, p_CP_);
   if (light.ambient_dn >= infrared_.saturation_dn) return NoReturn::kSaturated;
-  // A window that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast,
+  // A block that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast,
   // which is a third of a dot's peak.
   constexpr double kContrast = 1.0 / 3.0;
   const double noise_dn =

@@ -1,28 +1,54 @@
 #pragma once
 
+#include <opencv2/core.hpp>
+
+#include "core/detection/observation.h"
 #include "core/geometry/camera_model.h"
 #include "renderers/tracing/render_types.h"
-#include "sim/structured_light/depth_frame.h"
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {
 
-/// Tells why a window was not matched, from what its central pixel sees.
+/// Why a depth pixel has no return; for truth only, detectors never see it.
+enum class NoReturn : unsigned char {
+  kNone = 0,  ///< There is a return.
+  kNoSurface,
+  kRange,
+  kShadow,
+  kGrazing,
+  kDark,       ///< The dots do not stand out of the noise, of ambient light among others.
+  kSaturated,  ///< Ambient light alone saturates the infra-red image.
+  kNoMatch,    ///< Dots can be seen, but the block is not recognised: it straddles an edge.
+  kBorder,     ///< The block leaves the infra-red image.
+  /// Registered depth only: the depth camera sees something else there, or its pixels leave a gap.
+  kNotRegistered,
+};
+
+/// A depth image with its reasons.
+struct ExplainedDepth {
+  DepthImage depth;
+  cv::Mat1b no_return;  ///< NoReturn.
+  /// What MatchedDepth matched: the infra-red image, 10 bits; empty for formulae. Of several images
+  /// the last one.
+  cv::Mat1w infrared = {};
+};
+
+/// Tells why a block was not matched, from what its central pixel sees.
 class MissingReturn {
  public:
   /// Keeps references. `camera`: a pinhole; p_CP: the projector.
-  MissingReturn(const InfraredOptions& infrared, const SpeckleMatchingOptions& matching,
+  MissingReturn(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                 const DisparityRange& range, const CameraModel& camera, const Eigen::Vector3d& p_CP)
       : infrared_(infrared), matching_(matching), range_(range), camera_(camera), p_CP_(p_CP) {}
 
-  /// The pixel must see a surface, and its window lie in the image.
+  /// The pixel must see a surface, and its block lie in the image.
   NoReturn Reason(const AovImages& aovs, cv::Point pixel) const;
 
  private:
   const InfraredOptions& infrared_;
-  const SpeckleMatchingOptions& matching_;
+  const PatternMatchingOptions& matching_;
   const DisparityRange& range_;
   const CameraModel& camera_;
   Eigen::Vector3d p_CP_;

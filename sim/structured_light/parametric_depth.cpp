@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/io/input_error.h"
-#include "sim/structured_light/chance_match.h"
+#include "sim/structured_light/block_evidence.h"
 #include "sim/structured_light/missing_return.h"
 
 namespace fenestra {
@@ -15,19 +15,19 @@ namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-// Standard normal at every pixel, but equal to white noise averaged over the window that
+// Standard normal at every pixel, but equal to white noise averaged over the block that
 // neighbouring pixels share.
-cv::Mat1f WindowNoise(const RandomStream& stream, cv::Size size, cv::Size window) {
-  const cv::Size reach(window.width / 2, window.height / 2);
+cv::Mat1f BlockNoise(const RandomStream& stream, cv::Size size, cv::Size block) {
+  const cv::Size reach(block.width / 2, block.height / 2);
   cv::Mat1f white(size.height + 2 * reach.height, size.width + 2 * reach.width);
   stream.FillNormals({white.ptr<float>(), white.total()});
   cv::Mat1f sums;
-  cv::boxFilter(white, sums, CV_32F, window, {-1, -1}, false);
+  cv::boxFilter(white, sums, CV_32F, block, {-1, -1}, false);
   return sums(cv::Rect({reach.width, reach.height}, size)) /
-         std::sqrt(static_cast<float>(window.area()));
+         std::sqrt(static_cast<float>(block.area()));
 }
 
-// Whether a window that reaches so far around pixel (u, v) lies in an image `scale` times as wide.
+// Whether a block that reaches so far around pixel (u, v) lies in an image `scale` times as wide.
 bool Covers(cv::Size size, int reach_u, int reach_v, int u, int v, double scale) {
   return u * scale >= reach_u && u * scale + reach_u <= size.width * scale - 1.0 &&
          v * scale >= reach_v && v * scale + reach_v <= size.height * scale - 1.0;
@@ -52,7 +52,7 @@ void Validate(const ParametricDepthOptions& o) {
   }
 }
 
-/// A window with the pattern at one disparity.
+/// A block with the pattern at one disparity.
 struct ParametricDepth::Match {
   float correlation = 0.0f;    ///< ρ
   float variance = 0.0f;       ///< V [DN²]
@@ -66,7 +66,7 @@ struct ParametricDepth::Match {
 
 ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
                                  const ParametricDepthOptions& noise,
-                                 const SpeckleMatchingOptions& matching, const CameraModel& depth,
+                                 const PatternMatchingOptions& matching, const CameraModel& depth,
                                  double baseline_m, const DisparityRange& range,
                                  const RollingShutter& shutter)
     : infrared_(Validated(infrared)),
@@ -75,13 +75,13 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
       range_(range),
       p_CP_(baseline_m, 0.0, 0.0),
       rays_(depth, shutter),
-      pattern_mean_(static_cast<float>(GatheredPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
+      pattern_mean_(static_cast<float>(SampledPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
       search_px_(matching.SearchEnd(range)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
-      windows_(matching.window_width_px / scale_, matching.window_height_px / scale_,
-               static_cast<double>(pattern_mean_), SpreadOf(infrared)) {
+      blocks_(matching.block_width_px / scale_, matching.block_height_px / scale_,
+              static_cast<double>(pattern_mean_), SpreadOf(infrared)) {
   dots_chance_ = static_cast<float>(SumOfGaussian(2.0 * std::pow(SpreadOf(infrared), 2)));
-  const GatheredPattern pattern(infrared.dot_sigma_px);
+  const SampledPattern pattern(infrared.dot_sigma_px);
   for (int i = 0; i < kPhases; ++i) {
     const double offset = (i + 0.5) / kPhases;
     // The search goes by half pixels.
@@ -93,9 +93,9 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
   }
 }
 
-WindowLight ParametricDepth::LightOf(const AovImages& aovs) const {
+BlockLight ParametricDepth::LightOf(const AovImages& aovs) const {
   const cv::Size size = aovs.depth_m.size();
-  WindowLight windows{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
+  BlockLight blocks{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
   const auto fb = static_cast<float>(range_.focal_times_baseline);
   const CameraParameters& k = rays_.camera().parameters();
   for (int v = 0; v < size.height; ++v) {
@@ -104,14 +104,14 @@ WindowLight ParametricDepth::LightOf(const AovImages& aovs) const {
       const InfraredLight light = InfraredLightAt(infrared_, aovs, {u, v}, ray, p_CP_);
       // A dot may saturate; what counts is how far it stands out of its surroundings.
       const double ambient_dn = std::min(light.ambient_dn, infrared_.saturation_dn);
-      windows.ambient_dn(v, u) = static_cast<float>(ambient_dn);
-      windows.dots_dn(v, u) =
+      blocks.ambient_dn(v, u) = static_cast<float>(ambient_dn);
+      blocks.dots_dn(v, u) =
           static_cast<float>(std::min(light.dot_dn, infrared_.saturation_dn - ambient_dn));
-      windows.disparity_px(v, u) =
-          std::isfinite(aovs.depth_m(v, u)) ? fb / aovs.depth_m(v, u) : WindowLight::kNoDisparity;
+      blocks.disparity_px(v, u) =
+          std::isfinite(aovs.depth_m(v, u)) ? fb / aovs.depth_m(v, u) : BlockLight::kNoDisparity;
     }
   }
-  return windows;
+  return blocks;
 }
 
 float ParametricDepth::BesidesIn(const Phase& phase) const {
@@ -121,34 +121,34 @@ float ParametricDepth::BesidesIn(const Phase& phase) const {
   return (whole + (1.0f - matched) * phase.variance) / (matched * phase.variance);
 }
 
-ParametricDepth::Match ParametricDepth::MatchAt(const WindowEvidence& window,
+ParametricDepth::Match ParametricDepth::MatchAt(const BlockEvidence& block,
                                                 float disparity_px) const {
   Match match;
-  if (window.evidence <= 0.0f) return match;
+  if (block.evidence <= 0.0f) return match;
   const float fraction = disparity_px - std::floor(disparity_px);
   const Phase& phase =
       phases_[std::min(static_cast<size_t>(fraction * kPhases), phases_.size() - 1)];
   const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
   const auto dark_variance =
       static_cast<float>(infrared_.dark_noise_dn * infrared_.dark_noise_dn + 1.0 / 12.0);
-  const float smooth = pattern_mean_ * window.dots + window.ambient;
+  const float smooth = pattern_mean_ * block.dots + block.ambient;
   match.noise = dark_variance + static_cast<float>(infrared_.shot_noise_dn) * smooth;
-  match.step = std::max(0.0f, window.smooth2 - smooth * smooth);
+  match.step = std::max(0.0f, block.smooth2 - smooth * smooth);
   match.variance =
-      (phase.variance + c2 * (phase.variance + pattern_mean_ * pattern_mean_)) * window.dots2 +
+      (phase.variance + c2 * (phase.variance + pattern_mean_ * pattern_mean_)) * block.dots2 +
       match.step + match.noise;
-  const float signal = phase.match * window.evidence;
+  const float signal = phase.match * block.evidence;
   match.explained = phase.variance * signal * signal;
   match.correlation = std::sqrt(match.explained / match.variance);
-  match.strength = std::sqrt(window.dots2);
-  match.off_centre_px = static_cast<float>(scale_) * window.moment / window.evidence;
-  match.disparity_px = window.disparity / window.evidence;
+  match.strength = std::sqrt(block.dots2);
+  match.off_centre_px = static_cast<float>(scale_) * block.moment / block.evidence;
+  match.disparity_px = block.disparity / block.evidence;
   return match;
 }
 
 float ParametricDepth::Measured(const Match& match, const Noise& noise) const {
-  // Fitted to SpeckleMatcher on walls: the search takes the best of several places around the right
-  // one, and windows hold more or fewer dots.
+  // Fitted to PatternMatcher on walls: the search takes the best of several places around the right
+  // one, and blocks hold more or fewer dots.
   constexpr float kBestOfSeveral = 0.5f;
   constexpr float kSpread = 0.95f;
   const float rho = match.correlation;
@@ -173,8 +173,8 @@ bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival
   const float explained = measured * measured * match.variance;
   const float unexplained = match.variance - explained - match.noise;
   if (unexplained <= static_cast<float>(matching_.most_unexplained) * explained) return true;
-  // The centre's noise: that of a mean place over the window, weighted with noisy evidence.
-  const auto width = static_cast<float>(matching_.window_width_px);
+  // The centre's noise: that of a mean place over the block, weighted with noisy evidence.
+  const auto width = static_cast<float>(matching_.block_width_px);
   const float by_noise_px =
       std::sqrt(match.noise / match.explained) * width / std::sqrt(12.0f * Pixels());
   const float spread_px = std::hypot(by_noise_px, static_cast<float>(noise_.lateral_noise_px));
@@ -182,16 +182,16 @@ bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival
          static_cast<float>(matching_.most_off_centre) * width;
 }
 
-float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
+float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
                             const Noise& noise) const {
-  // Clipped, the window has not even noise to match.
-  if (window.ambient >= static_cast<float>(infrared_.saturation_dn - 0.5)) return kNaN;
+  // Clipped, the block has not even noise to match.
+  if (block.ambient >= static_cast<float>(infrared_.saturation_dn - 0.5)) return kNaN;
   const float own_px = light.disparity_px(pixel);
-  const float strongest_px = window.strongest_disparity;
-  Match match = MatchAt(window, own_px);
+  const float strongest_px = block.strongest_disparity;
+  Match match = MatchAt(block, own_px);
   float rival = -1.0f;
   if (std::abs(strongest_px - own_px) > 1.0f) {
-    Match other = MatchAt(windows_.At(light, pixel, strongest_px), strongest_px);
+    Match other = MatchAt(blocks_.At(light, pixel, strongest_px), strongest_px);
     if (other.correlation > match.correlation) std::swap(match, other);
     rival = other.correlation;
   }
@@ -212,9 +212,9 @@ float ParametricDepth::Read(const WindowLight& light, const WindowEvidence& wind
 
 float ParametricDepth::DisparityError(const Match& match, float measured,
                                       const Noise& noise) const {
-  // What windows hold besides pattern and noise disturbs them as the laser's speckle does a whole
+  // What blocks hold besides pattern and noise disturbs them as the laser's speckle does a whole
   // one. Of a step in brightness, where an outline crosses, a quarter does: fitted, as is the root
-  // by which windows have less noise that correlate better than they should.
+  // by which blocks have less noise that correlate better than they should.
   constexpr float kOfStep = 0.25f;
   const float besides = std::max(
       0.0f, match.variance - match.explained - match.noise - (1.0f - kOfStep) * match.step);
@@ -225,28 +225,28 @@ float ParametricDepth::DisparityError(const Match& match, float measured,
          static_cast<float>(noise_.temporal_disparity_noise_px) * noisy * noise.temporal;
 }
 
-DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lighting,
-                                    const Pose& X_WB, double unit_m, const RandomStream& shot,
-                                    const RandomStream& frame) const {
+ExplainedDepth ParametricDepth::Observe(const RayCaster& caster, const Lighting& lighting,
+                                        const Pose& X_WB, double unit_m, const RandomStream& shot,
+                                        const RandomStream& image_noise) const {
   const AovImages aovs = rays_.CastAovs(caster, X_WB, lighting, p_CP_);
-  const WindowLight light = LightOf(aovs);
+  const BlockLight light = LightOf(aovs);
   const cv::Size size = aovs.depth_m.size();
-  const cv::Size window(2 * windows_.reach_u() + 1, 2 * windows_.reach_v() + 1);
-  const cv::Mat1f evidence = WindowNoise(frame.Child("evidence"), size, window);
-  const cv::Mat1f lateral = WindowNoise(frame.Child("lateral"), size, window);
-  const cv::Mat1f chance = WindowNoise(frame.Child("chance"), size, window);
-  const cv::Mat1f fixed = WindowNoise(shot.Child("laser_speckle"), size, window);
-  const cv::Mat1f temporal = WindowNoise(frame.Child("disparity"), size, window);
+  const cv::Size block(2 * blocks_.reach_u() + 1, 2 * blocks_.reach_v() + 1);
+  const cv::Mat1f evidence = BlockNoise(image_noise.Child("evidence"), size, block);
+  const cv::Mat1f lateral = BlockNoise(image_noise.Child("lateral"), size, block);
+  const cv::Mat1f chance = BlockNoise(image_noise.Child("chance"), size, block);
+  const cv::Mat1f fixed = BlockNoise(shot.Child("laser_speckle"), size, block);
+  const cv::Mat1f temporal = BlockNoise(image_noise.Child("disparity"), size, block);
   const MissingReturn missing(infrared_, matching_, range_, rays_.camera(), p_CP_);
-  const cv::Size reach(matching_.window_width_px / 2, matching_.window_height_px / 2);
-  DepthFrame result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
-                    .no_return = cv::Mat1b::zeros(size)};
+  const cv::Size reach(matching_.block_width_px / 2, matching_.block_height_px / 2);
+  ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
+                        .no_return = cv::Mat1b::zeros(size)};
   for (int v = 0; v < size.height; ++v) {
-    const std::vector<WindowEvidence> row = windows_.Row(light, v);
+    const std::vector<BlockEvidence> row = blocks_.Row(light, v);
     for (int u = 0; u < size.width; ++u) {
       const cv::Point pixel(u, v);
-      // Windows leave the image where those of the whole infra-red image do.
-      const bool is_inside = Covers(size, windows_.reach_u(), windows_.reach_v(), u, v, 1.0) &&
+      // Blocks leave the image where those of the whole infra-red image do.
+      const bool is_inside = Covers(size, blocks_.reach_u(), blocks_.reach_v(), u, v, 1.0) &&
                              Covers(size, reach.width, reach.height, u, v, scale_);
       NoReturn reason = NoReturn::kNone;
       double z_m = 0.0;
@@ -256,7 +256,7 @@ DepthFrame ParametricDepth::Observe(const RayCaster& caster, const Lighting& lig
         reason = NoReturn::kBorder;
       } else {
         const float disparity_px =
-            Read(light, row[static_cast<size_t>(u - windows_.reach_u())], pixel,
+            Read(light, row[static_cast<size_t>(u - blocks_.reach_u())], pixel,
                  {.evidence = evidence(pixel),
                   .lateral = lateral(pixel),
                   .chance = chance(pixel),

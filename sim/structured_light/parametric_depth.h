@@ -7,9 +7,9 @@
 #include "renderers/ray_caster.h"
 #include "sim/motion/moving_rays.h"
 #include "sim/structured_light/block_evidence.h"
-#include "sim/structured_light/depth_frame.h"
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {
@@ -17,12 +17,12 @@ namespace fenestra {
 /// Noise of the parametric model, in pixels of a 640-wide image.
 struct ParametricDepthOptions {
   /// Standard deviations of the disparity before quantisation: what the laser's speckle and the
-  /// place within a pixel make, the same in every frame of a view; and what noise makes of windows
-  /// whose dots stand out of it by its own standard deviation. Both fitted to SpeckleDepth before
+  /// place within a pixel make, the same in every image of a view; and what noise makes of blocks
+  /// whose dots stand out of it by its own standard deviation. Both fitted to MatchedDepth before
   /// white walls at 0.8 to 4 m.
   double fixed_disparity_noise_px = 0.03;
   double temporal_disparity_noise_px = 0.28;
-  /// Of where a window's evidence is centred: outlines lie that far from where they are seen
+  /// Of where a block's evidence is centred: outlines lie that far from where they are seen
   /// (Barron & Handa, simkinect: 0.5).
   double lateral_noise_px = 0.5;
 };
@@ -30,10 +30,10 @@ struct ParametricDepthOptions {
 /// Throws InputError with all faults.
 void Validate(const ParametricDepthOptions& options);
 
-/// Depth from what windows of the infra-red image would hold, without making the image.
+/// Depth from what blocks of the infra-red image would hold, without making the image.
 ///
-/// Pixel i of the window around a depth pixel receives dots of strength s_i at disparity d_i and
-/// ambient light a_i. With a pattern of mean m and variance v (GatheredPattern, displaced by d),
+/// Pixel i of the block around a depth pixel receives dots of strength s_i at disparity d_i and
+/// ambient light a_i. With a pattern of mean m and variance v (SampledPattern, displaced by d),
 /// speckle contrast c and noise σ², the image's correlation with the pattern at disparity d is
 /// expected to be
 ///
@@ -42,26 +42,27 @@ void Validate(const ParametricDepthOptions& options);
 ///
 /// where σ_p² = σ_dot² + 1/12 is the spread of a dot with that of a pixel and κ the correlation of
 /// the pattern at d with itself at the nearest step of the search. d is the disparity of the
-/// window's centre or that of its strongest pixel, whichever fits better. Noise of the standard
-/// deviation (1 - ρ²)/√n is added to ρ, and SpeckleMatchingOptions decide, as in SpeckleMatcher.
+/// block's centre or that of its strongest pixel, whichever fits better. Noise of the standard
+/// deviation (1 - ρ²)/√n is added to ρ, and PatternMatchingOptions decide, as in PatternMatcher.
 /// The best of the N other places of the search correlates by chance: by the greatest of N normal
 /// numbers of deviation 1/√n. Where that is more than ρ it is the match, if it is accepted.
-/// The window's disparity is the mean of d_i over its evidence, and noise: the fixed part in
+/// The block's disparity is the mean of d_i over its evidence, and noise: the fixed part in
 /// proportion to √((V - ρ²V - σ²)/ρ²V), the temporal one to σ/√⟨s²⟩.
 class ParametricDepth {
  public:
   ParametricDepth(const InfraredOptions& infrared, const ParametricDepthOptions& noise,
-                  const SpeckleMatchingOptions& matching, const CameraModel& depth,
+                  const PatternMatchingOptions& matching, const CameraModel& depth,
                   double baseline_m, const DisparityRange& range, const RollingShutter& shutter);
 
-  /// `unit_m`: of the depth image. `shot`: tells this view's fixed noise from others', `frame` this
-  /// frame's.
-  DepthFrame Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                     double unit_m, const RandomStream& shot, const RandomStream& frame) const;
+  /// `unit_m`: the unit of the depth image. `shot`: the stream of this view's fixed noise;
+  /// `image_noise`: that of this image's own noise.
+  ExplainedDepth Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                         double unit_m, const RandomStream& shot,
+                         const RandomStream& image_noise) const;
 
  private:
   struct Match;
-  /// Standard normal variates of one window.
+  /// Standard normal variates of one block.
   struct Noise {
     float evidence;
     float lateral;
@@ -77,12 +78,12 @@ class ParametricDepth {
   static constexpr int kPhases = 16;
 
   float Pixels() const {
-    return static_cast<float>(matching_.window_width_px * matching_.window_height_px);
+    return static_cast<float>(matching_.block_width_px * matching_.block_height_px);
   }
-  WindowLight LightOf(const AovImages& aovs) const;
-  /// Of the window with the pattern at this disparity [px at 640].
-  Match MatchAt(const WindowEvidence& window, float disparity_px) const;
-  /// Of a whole window: what it holds besides the match and noise, over what the match explains.
+  BlockLight LightOf(const AovImages& aovs) const;
+  /// Of the block with the pattern at this disparity [px at 640].
+  Match MatchAt(const BlockEvidence& block, float disparity_px) const;
+  /// Of a whole block: what it holds besides the match and noise, over what the match explains.
   float BesidesIn(const Phase& phase) const;
   /// The correlation with noise.
   float Measured(const Match& match, const Noise& noise) const;
@@ -92,12 +93,12 @@ class ParametricDepth {
   /// [px at 640]
   float DisparityError(const Match& match, float measured, const Noise& noise) const;
   /// Disparity after noise [px at 640], or NaN.
-  float Read(const WindowLight& light, const WindowEvidence& window, cv::Point pixel,
+  float Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
              const Noise& noise) const;
 
   InfraredOptions infrared_;
   ParametricDepthOptions noise_;
-  SpeckleMatchingOptions matching_;
+  PatternMatchingOptions matching_;
   DisparityRange range_;
   Eigen::Vector3d p_CP_;
   MovingRays rays_;
@@ -107,7 +108,7 @@ class ParametricDepth {
   float dots_chance_ = 1.0f;    ///< Σ r² of the pattern's autocorrelation r = exp(-k²/4σ_p²).
   double search_px_;            ///< Disparities are searched up to this [px at 640].
   double scale_;                ///< Pixels of a 640-wide image per depth pixel.
-  WindowGatherer windows_;
+  BlockGatherer blocks_;
 };
 
 }  // namespace fenestra

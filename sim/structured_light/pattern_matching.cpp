@@ -36,9 +36,9 @@ FENESTRA_WIDE void AddProducts(const int* image, const int* pattern, int* sums, 
   for (int u = 0; u < count; ++u) sums[u] += image[u] * pattern[u];
 }
 
-// sums[u] = in[u] + … + in[u + window - 1].
-FENESTRA_WIDE void AddShifts(const int* in, int window, int* sums, int count) {
-  if (window == 9) {  // The sensor's own, in one pass.
+// sums[u] = in[u] + … + in[u + block - 1].
+FENESTRA_WIDE void AddShifts(const int* in, int block, int* sums, int count) {
+  if (block == 9) {  // The sensor's own, in one pass.
     for (int u = 0; u < count; ++u) {
       sums[u] = in[u] + in[u + 1] + in[u + 2] + in[u + 3] + in[u + 4] + in[u + 5] + in[u + 6] +
                 in[u + 7] + in[u + 8];
@@ -46,12 +46,12 @@ FENESTRA_WIDE void AddShifts(const int* in, int window, int* sums, int count) {
     return;
   }
   for (int u = 0; u < count; ++u) sums[u] = in[u];
-  for (int i = 1; i < window; ++i) {
+  for (int i = 1; i < block; ++i) {
     for (int u = 0; u < count; ++u) sums[u] += in[u + i];
   }
 }
 
-// The correlation coefficients of windows with n pixels, by their sums and 1/√(n Σ x² - (Σ x)²).
+// The correlation coefficients of blocks with n pixels, by their sums and 1/√(n Σ x² - (Σ x)²).
 FENESTRA_WIDE void Correlate(const int* products, float pixels, const int* image_sums,
                              const float* image_inverse_spread, const int* pattern_sums,
                              const float* pattern_inverse_spread, float* scores, int count) {
@@ -98,10 +98,10 @@ FENESTRA_WIDE void Update(const float* __restrict scores, float step, float* __r
   }
 }
 
-// Sums over windows, and 1/√(n Σ x² - (Σ x)²), at the windows' centres; 0 where a window is flat or
+// Sums over blocks, and 1/√(n Σ x² - (Σ x)²), at the blocks' centres; 0 where a block is flat or
 // leaves the image.
-void WindowStatistics(const cv::Mat1i& image, int reach_u, int reach_v, cv::Mat1i& sums,
-                      cv::Mat1f& inverse_spread) {
+void BlockStatistics(const cv::Mat1i& image, int reach_u, int reach_v, cv::Mat1i& sums,
+                     cv::Mat1f& inverse_spread) {
   sums = cv::Mat1i::zeros(image.size());
   inverse_spread = cv::Mat1f::zeros(image.size());
   const double pixels = (2 * reach_u + 1) * (2 * reach_v + 1);
@@ -124,14 +124,14 @@ void WindowStatistics(const cv::Mat1i& image, int reach_u, int reach_v, cv::Mat1
 
 }  // namespace
 
-double SpeckleMatchingOptions::SearchEnd(const DisparityRange& range) const {
+double PatternMatchingOptions::SearchEnd(const DisparityRange& range) const {
   constexpr double kRoom_px = 2.0;
   return std::max(search_px, range.focal_times_baseline / range.nearest_m + kRoom_px);
 }
 
-void Validate(const SpeckleMatchingOptions& o) {
+void Validate(const PatternMatchingOptions& o) {
   Faults faults("speckle matching");
-  for (const int side : {o.window_width_px, o.window_height_px}) {
+  for (const int side : {o.block_width_px, o.block_height_px}) {
     faults.Require(
         side >= 3 && side <= 15 && side % 2 == 1,
         fmt::format("the window's sides must be odd numbers from 3 to 15 px, not {}", side));
@@ -148,8 +148,8 @@ void Validate(const SpeckleMatchingOptions& o) {
   faults.ThrowIfAny();
 }
 
-SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
-                               const InfraredOptions& infrared, const GatheredPattern& pattern,
+PatternMatcher::PatternMatcher(const PatternMatchingOptions& options,
+                               const InfraredOptions& infrared, const SampledPattern& pattern,
                                cv::Size image, double least_px, double most_px)
     : options_(Validated(options)),
       // Rounding to whole numbers is noise too.
@@ -170,24 +170,24 @@ SpeckleMatcher::SpeckleMatcher(const SpeckleMatchingOptions& options,
             static_cast<int>(std::lround(kPatternScale * pattern.At(i - most_ - 0.5 * phase, v)));
       }
     }
-    WindowStatistics(p.values, options.window_width_px / 2, options.window_height_px / 2, p.sums,
-                     p.inverse_spread);
+    BlockStatistics(p.values, options.block_width_px / 2, options.block_height_px / 2, p.sums,
+                    p.inverse_spread);
   }
 }
 
-SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image, int row_step) const {
+PatternMatches PatternMatcher::Match(const cv::Mat1w& image, int row_step) const {
   FENESTRA_CHECK(row_step >= 1, "rows are counted in positive steps");
   FENESTRA_CHECK(image.size() == size_, "the image must have the matcher's size");
-  const int reach_u = options_.window_width_px / 2;
-  const int reach_v = options_.window_height_px / 2;
+  const int reach_u = options_.block_width_px / 2;
+  const int reach_v = options_.block_height_px / 2;
   const int width = size_.width;
   cv::Mat1i grey;
   image.convertTo(grey, CV_32S);
   cv::Mat1i sums;
   cv::Mat1f inverse_spread;
-  WindowStatistics(grey, reach_u, reach_v, sums, inverse_spread);
+  BlockStatistics(grey, reach_u, reach_v, sums, inverse_spread);
 
-  SpeckleMatches matches{cv::Mat1f(size_, std::numeric_limits<float>::quiet_NaN()),
+  PatternMatches matches{cv::Mat1f(size_, std::numeric_limits<float>::quiet_NaN()),
                          cv::Mat1f(size_, -1.0f)};
   const int inside = width - 2 * reach_u;
   if (inside <= 0 || size_.height <= 2 * reach_v) return matches;
@@ -198,7 +198,7 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image, int row_step) const
   const auto pattern_row = [&](int k, const cv::Mat& of, int v) {
     return of.ptr<int>(v) + most_ - least_ - k / 2;
   };
-  const auto pixels = static_cast<float>(options_.window_width_px * options_.window_height_px);
+  const auto pixels = static_cast<float>(options_.block_width_px * options_.block_height_px);
   cv::Mat1i columns = cv::Mat1i::zeros(steps + 1, width);
   for (int k = 0; k <= steps; ++k) {
     for (int v = 0; v <= 2 * reach_v; ++v) {
@@ -247,7 +247,7 @@ SpeckleMatches SpeckleMatcher::Match(const cv::Mat1w& image, int row_step) const
   return matches;
 }
 
-std::optional<float> SpeckleMatcher::Accept(const Best& best, int i) const {
+std::optional<float> PatternMatcher::Accept(const Best& best, int i) const {
   const float score = best.score[i];
   const float before = best.before[i];
   const float after = best.after[i];
@@ -259,25 +259,25 @@ std::optional<float> SpeckleMatcher::Accept(const Best& best, int i) const {
   return 0.5f * best.step[i] + vertex_.Offset(is_whole_pixel, before, score, after);
 }
 
-// With a window's variance V, the match explains ρ² V and leaves (1 - ρ²) V, of which the noise is
+// With a block's variance V, the match explains ρ² V and leaves (1 - ρ²) V, of which the noise is
 // a part.
-bool SpeckleMatcher::IsWhole(float correlation, double mean, double inverse_spread) const {
-  const double pixels = options_.window_width_px * options_.window_height_px;
+bool PatternMatcher::IsWhole(float correlation, double mean, double inverse_spread) const {
+  const double pixels = options_.block_width_px * options_.block_height_px;
   const double variance = std::pow(1.0 / (pixels * inverse_spread), 2);
   const double explained = variance * std::pow(static_cast<double>(correlation), 2);
   const double noise = dark_variance_ + shot_noise_dn_ * mean;
   return variance - explained - noise <= options_.most_unexplained * explained;
 }
 
-// The evidence in column x of the window is its part of the covariance; if all dots are there, it
+// The evidence in column x of the block is its part of the covariance; if all dots are there, it
 // is in proportion to that column's part of the pattern's variance.
-bool SpeckleMatcher::IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean,
+bool PatternMatcher::IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean,
                                int step) const {
-  const int reach_u = options_.window_width_px / 2;
-  const int reach_v = options_.window_height_px / 2;
+  const int reach_u = options_.block_width_px / 2;
+  const int reach_v = options_.block_height_px / 2;
   const Phase& phase = phases_[static_cast<size_t>(step % 2)];
   const int shift = most_ - least_ - step / 2;
-  const double pixels = options_.window_width_px * options_.window_height_px;
+  const double pixels = options_.block_width_px * options_.block_height_px;
   const double pattern_mean = phase.sums(pixel.y, pixel.x + shift) / pixels;
   double evidence = 0.0;
   double evidence_moment = 0.0;
@@ -298,7 +298,7 @@ bool SpeckleMatcher::IsCentred(const cv::Mat1i& image, cv::Point pixel, double m
   }
   if (evidence <= 0.0 || whole <= 0.0) return false;
   return std::abs(evidence_moment / evidence - whole_moment / whole) <=
-         options_.most_off_centre * options_.window_width_px;
+         options_.most_off_centre * options_.block_width_px;
 }
 
 }  // namespace fenestra

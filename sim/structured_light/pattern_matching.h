@@ -4,33 +4,32 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "sim/structured_light/disparity_range.h"
+#include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
-#include "sim/structured_light/subpixel_vertex.h"
 
 namespace fenestra {
 
-/// How the sensor finds its pattern in an infra-red image. Windows of 9 x 9 or 9 x 7 pixels, a
+/// How the sensor finds its pattern in an infra-red image. Blocks of 9 x 9 or 9 x 7 pixels, a
 /// search over 64 px and results in 1/8 px are what ROS kinect_calibration/technical infers.
-struct SpeckleMatchingOptions {
+struct PatternMatchingOptions {
   /// Disparities from that of infinite distance to this are searched, in pixels of a 640-wide
   /// image, and farther if the nearest distance of the range demands it, as it does in near mode.
   /// What is nearer or farther than the range is thus recognised, and not taken for something else.
   double search_px = 64.0;
-  int window_width_px = 9;   ///< Odd, 3 to 15.
-  int window_height_px = 9;  ///< Odd, 3 to 15.
-  /// A match counts if its correlation coefficient is at least this, of windows of 81 pixels chance
+  int block_width_px = 9;   ///< Odd, 3 to 15.
+  int block_height_px = 9;  ///< Odd, 3 to 15.
+  /// A match counts if its correlation coefficient is at least this, of blocks of 81 pixels chance
   /// has a standard deviation of 1/9. Chosen.
   double least_correlation = 0.5;
   /// And if no other place more than a pixel away comes so near to it. Chosen.
   double least_lead = 0.15;
   /// And if what it leaves unexplained, besides the noise, is no more than this share of what it
-  /// explains: all dots of the window are there. Chosen, above what laser speckle leaves.
+  /// explains: all dots of the block are there. Chosen, above what laser speckle leaves.
   double most_unexplained = 0.3;
-  /// Or else if the centre of its evidence lies within this share of the window's width from where
-  /// that of the whole pattern would lie. A window that a shadow cuts off has its evidence in what
+  /// Or else if the centre of its evidence lies within this share of the block's width from where
+  /// that of the whole pattern would lie. A block that a shadow cuts off has its evidence in what
   /// is left of it, a quarter of the width aside when that is one half: with 1/4, a surface ends
-  /// where its window's centre leaves it, and shadows are as wide as they are.
+  /// where its block's centre leaves it, and shadows are as wide as they are.
   double most_off_centre = 0.25;
 
   /// The largest disparity that is searched [px of a 640-wide image]: with room for noise, and for
@@ -39,33 +38,33 @@ struct SpeckleMatchingOptions {
 };
 
 /// Throws InputError with all faults.
-void Validate(const SpeckleMatchingOptions& options);
+void Validate(const PatternMatchingOptions& options);
 
-/// The place of each pixel's window in the memorised pattern: disparities [px], NaN without match.
-struct SpeckleMatches {
+/// The place of each pixel's block in the memorised pattern: disparities [px], NaN without match.
+struct PatternMatches {
   cv::Mat1f disparity_px;
   cv::Mat1f correlation;  ///< Of the best place; -1 where none could be tried.
 };
 
-/// Finds, for the window I around each pixel (u, v) of an infra-red image, the disparity d that
+/// Finds, for the block I around each pixel (u, v) of an infra-red image, the disparity d that
 /// maximises its correlation coefficient with the pattern R at u - d,
 ///
 ///     ZNCC(d) = cov(I, R_d) / √(var I var R_d),
 ///
 /// over steps of half a pixel, and the vertex by the best and its neighbours (SubpixelVertex).
-class SpeckleMatcher {
+class PatternMatcher {
  public:
   /// Enough for images 4096 px wide in near mode.
   static constexpr double kMostDisparity_px = 1000.0;
 
   /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
   /// `infrared`: the noise that is known of the image.
-  SpeckleMatcher(const SpeckleMatchingOptions& options, const InfraredOptions& infrared,
-                 const GatheredPattern& pattern, cv::Size image, double least_px, double most_px);
+  PatternMatcher(const PatternMatchingOptions& options, const InfraredOptions& infrared,
+                 const SampledPattern& pattern, cv::Size image, double least_px, double most_px);
 
-  /// `image`: 10 bits. Windows that leave it are not matched, nor are rows but every `row_step`th,
+  /// `image`: 10 bits. Blocks that leave it are not matched, nor are rows but every `row_step`th,
   /// the first one among them.
-  SpeckleMatches Match(const cv::Mat1w& image, int row_step = 1) const;
+  PatternMatches Match(const cv::Mat1w& image, int row_step = 1) const;
 
   /// What is known of each pixel of a row while disparities are tried one after the other.
   struct Best {
@@ -80,21 +79,21 @@ class SpeckleMatcher {
  private:
   /// The place at which pixel i of a row matches, from the least disparity on [px].
   std::optional<float> Accept(const Best& best, int i) const;
-  /// Whether all dots of a pixel's window are there, as far as noise lets tell; `mean` and
-  /// `inverse_spread` are of the image's window.
+  /// Whether all dots of a pixel's block are there, as far as noise lets tell; `mean` and
+  /// `inverse_spread` are of the image's block.
   bool IsWhole(float correlation, double mean, double inverse_spread) const;
   /// Whether the match at this step rests on dots around the pixel rather than on one side of it.
   bool IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean, int step) const;
 
-  /// The pattern displaced by half a pixel (phase 1) or not (phase 0), and its windows' statistics;
+  /// The pattern displaced by half a pixel (phase 1) or not (phase 0), and its blocks' statistics;
   /// column i is the pattern's column i - most.
   struct Phase {
     cv::Mat1i values;          ///< Up to 255.
-    cv::Mat1i sums;            ///< Over windows.
-    cv::Mat1f inverse_spread;  ///< 1/√(n Σ R² - (Σ R)²) over windows.
+    cv::Mat1i sums;            ///< Over blocks.
+    cv::Mat1f inverse_spread;  ///< 1/√(n Σ R² - (Σ R)²) over blocks.
   };
 
-  SpeckleMatchingOptions options_;
+  PatternMatchingOptions options_;
   double dark_variance_;
   double shot_noise_dn_;
   SubpixelVertex vertex_;

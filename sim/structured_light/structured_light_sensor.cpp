@@ -12,7 +12,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kFrameRate_hz = 30.0;
+constexpr double kImageRate_hz = 30.0;
 
 CameraModel InfraredCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
@@ -37,7 +37,7 @@ DisparityRange RangeOf(const StructuredLightOptions& o) {
 }
 
 // [px of the infra-red image]
-double SpeckleSearchEnd(const StructuredLightOptions& o) {
+double MatchingSearchEnd(const StructuredLightOptions& o) {
   return o.matching.SearchEnd(RangeOf(o)) * o.infrared_width_px / DisparityRange::kImageWidth;
 }
 
@@ -45,10 +45,10 @@ RollingShutter InfraredShutter(const StructuredLightOptions& o) {
   return {.motion = o.motion, .readout_s = o.infrared_readout_s};
 }
 
-std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const SpeckleDepth>>
+std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const MatchedDepth>>
 MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
-  if (o.depth_model == DepthModel::kSpeckle) {
-    return std::make_shared<const SpeckleDepth>(
+  if (o.depth_model == DepthModel::kMatched) {
+    return std::make_shared<const MatchedDepth>(
         o.infrared, o.matching, depth, o.infrared_width_px / o.depth_width_px,
         o.projector_baseline_m, RangeOf(o), InfraredShutter(o));
   }
@@ -72,17 +72,17 @@ void Validate(const StructuredLightOptions& o) {
                   "must have the same proportions",
                   o.depth_width_px, o.depth_height_px, o.color.width_px, o.color.height_px));
   faults.Require(
-      o.depth_model != DepthModel::kSpeckle || o.infrared_width_px % o.depth_width_px == 0,
+      o.depth_model != DepthModel::kMatched || o.infrared_width_px % o.depth_width_px == 0,
       fmt::format("an infra-red image {} px wide is not a multiple of the depth image's {} px",
                   o.infrared_width_px, o.depth_width_px));
-  if (o.depth_model == DepthModel::kSpeckle && o.projector_baseline_m > 0.0) {
-    const double end_px = SpeckleSearchEnd(o);
+  if (o.depth_model == DepthModel::kMatched && o.projector_baseline_m > 0.0) {
+    const double end_px = MatchingSearchEnd(o);
     faults.Require(
-        end_px <= SpeckleMatcher::kMostDisparity_px,
+        end_px <= PatternMatcher::kMostDisparity_px,
         fmt::format("at the nearest distance disparities are {:.0f} px of the infra-red image, "
                     "which is more than {:.0f}: it is too wide, or the focal length or the "
                     "projector's baseline too long",
-                    end_px, SpeckleMatcher::kMostDisparity_px));
+                    end_px, PatternMatcher::kMostDisparity_px));
   }
   faults.ThrowIfAny();
   Validate(InfraredShutter(o));
@@ -118,26 +118,28 @@ RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Li
           .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
 }
 
-DepthFrame StructuredLightSensor::ObserveDepth(const RayCaster& caster, const Lighting& lighting,
-                                               const Pose& X_WB, const RandomStream& shot) const {
-  const DepthFrame frame = AverageDepth(caster, lighting, X_WB, shot);
-  return registrar_ ? registrar_->Register(frame, caster, lighting, X_WK(X_WB)) : frame;
+ExplainedDepth StructuredLightSensor::ObserveDepth(const RayCaster& caster,
+                                                   const Lighting& lighting, const Pose& X_WB,
+                                                   const RandomStream& shot) const {
+  const ExplainedDepth depth = AverageDepth(caster, lighting, X_WB, shot);
+  return registrar_ ? registrar_->Register(depth, caster, lighting, X_WK(X_WB)) : depth;
 }
 
-DepthFrame StructuredLightSensor::AverageDepth(const RayCaster& caster, const Lighting& lighting,
-                                               const Pose& X_WB, const RandomStream& shot) const {
-  DepthFrame first = OneDepthFrame(caster, lighting, X_WB, shot, shot);
+ExplainedDepth StructuredLightSensor::AverageDepth(const RayCaster& caster,
+                                                   const Lighting& lighting, const Pose& X_WB,
+                                                   const RandomStream& shot) const {
+  ExplainedDepth first = OneImage(caster, lighting, X_WB, shot, shot);
   if (options_.averaged_frames == 1) return first;
   cv::Mat1d sum;
   first.depth.raw.convertTo(sum, CV_64F);
   cv::Mat1d returns = cv::Mat1d::zeros(sum.size());
   returns.setTo(1.0, first.depth.raw != 0);
   for (int i = 1; i < options_.averaged_frames; ++i) {
-    const RandomStream frame = shot.Child("frame", static_cast<uint64_t>(i));
-    const Pose X_WBi = PoseAt(X_WB, options_.motion, -i / kFrameRate_hz);
+    const RandomStream image_noise = shot.Child("frame", static_cast<uint64_t>(i));
+    const Pose X_WBi = PoseAt(X_WB, options_.motion, -i / kImageRate_hz);
     // From elsewhere the laser's speckle is another one.
-    const RandomStream& view = options_.motion.still() ? shot : frame;
-    const DepthFrame next = OneDepthFrame(caster, lighting, X_WBi, view, frame);
+    const RandomStream& view = options_.motion.still() ? shot : image_noise;
+    const ExplainedDepth next = OneImage(caster, lighting, X_WBi, view, image_noise);
     cv::add(sum, next.depth.raw, sum, cv::noArray(), CV_64F);
     cv::add(returns, 1.0, returns, next.depth.raw != 0);
     // The reason is the first one that was given.
@@ -150,12 +152,12 @@ DepthFrame StructuredLightSensor::AverageDepth(const RayCaster& caster, const Li
   return first;
 }
 
-DepthFrame StructuredLightSensor::OneDepthFrame(const RayCaster& caster, const Lighting& lighting,
-                                                const Pose& X_WB, const RandomStream& shot,
-                                                const RandomStream& frame) const {
+ExplainedDepth StructuredLightSensor::OneImage(const RayCaster& caster, const Lighting& lighting,
+                                               const Pose& X_WB, const RandomStream& shot,
+                                               const RandomStream& image_noise) const {
   return std::visit(
       [&](const auto& model) {
-        return model->Observe(caster, lighting, X_WB, nominal_.depth_unit_m, shot, frame);
+        return model->Observe(caster, lighting, X_WB, nominal_.depth_unit_m, shot, image_noise);
       },
       depth_model_);
 }

@@ -9,20 +9,19 @@
 #include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/camera/color_camera.h"
-#include "sim/structured_light/depth_frame.h"
 #include "sim/structured_light/depth_registrar.h"
 #include "sim/structured_light/infrared_image.h"
 #include "sim/structured_light/matched_depth.h"
+#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/parametric_depth.h"
 #include "sim/truth/ground_truth.h"
-#include "sim/truth/truth_images.h"
 
 namespace fenestra {
 
 /// How depth comes about.
 enum class DepthModel {
   kParametric,  ///< From what windows would hold, by formulae; see ParametricDepth. Fast.
-  kSpeckle,     ///< An infra-red image of the dots, searched for the pattern; see SpeckleDepth.
+  kMatched,     ///< An infra-red image of the dots, searched for the pattern; see MatchedDepth.
 };
 
 /// A Kinect-like sensor: colour camera, infra-red depth camera, and a projector of dots.
@@ -35,8 +34,8 @@ struct StructuredLightOptions {
   double color_offset_m = 0.025;        ///< Colour camera right (+x) of the depth camera.
   double projector_baseline_m = 0.075;  ///< Projector right (+x) of the depth camera.
 
-  /// Of frame B while frames are taken. Truth is that of X_WB: where the rig is when the middle
-  /// rows of depth and colour image are exposed.
+  /// Motion of frame B while images are taken. Truth is that of X_WB: where the rig is when the
+  /// middle rows of depth and colour image are exposed.
   RigMotion motion;
   /// Rolling shutter of the infra-red camera, an MT9M001: from the first row of the image to the
   /// last. Assumed: 1049 rows' times, blanking included, in 1/30 s, and 960 of them in the image.
@@ -48,8 +47,8 @@ struct StructuredLightOptions {
   DepthModel depth_model = DepthModel::kParametric;
   InfraredOptions infrared;
   ParametricDepthOptions parametric;
-  SpeckleMatchingOptions matching;  ///< Of both models.
-  /// Width of the infra-red image in which kSpeckle matches: a multiple of the depth image's. Depth
+  PatternMatchingOptions matching;  ///< Of both models.
+  /// Width of the infra-red image in which kMatched matches: a multiple of the depth image's. Depth
   /// pixels are those of every so many columns and rows.
   int infrared_width_px = 640;
   /// Quantum of the disparity, in pixels of a 640-wide image: 1/8 px (ROS
@@ -90,19 +89,19 @@ class StructuredLightSensor {
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
   /// The depth image with its reasons; Observe's depth is the same.
-  DepthFrame ObserveDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                          const RandomStream& shot) const;
+  ExplainedDepth ObserveDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                              const RandomStream& shot) const;
 
  private:
   /// As the infra-red camera sees it.
-  DepthFrame AverageDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                          const RandomStream& shot) const;
-  DepthFrame OneDepthFrame(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                           const RandomStream& shot, const RandomStream& frame) const;
+  ExplainedDepth AverageDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                              const RandomStream& shot) const;
+  ExplainedDepth OneImage(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
+                          const RandomStream& shot, const RandomStream& image_noise) const;
 
   StructuredLightOptions options_;
   RgbdCalibration nominal_;
-  std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const SpeckleDepth>>
+  std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const MatchedDepth>>
       depth_model_;
   ColorCamera color_;
   RayGrid depth_rays_;  ///< Of the depth image.

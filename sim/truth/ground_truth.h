@@ -2,12 +2,14 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
+#include "renderers/tracing/render_types.h"
 #include "scenes/scene.h"
 
 namespace fenestra {
@@ -43,5 +45,20 @@ struct PlacedCamera {
 /// The truth for the scored camera at X_WC; `cameras` are all whose images the target must be in.
 GroundTruth MakeGroundTruth(const Scene& scene, const Pose& X_WC,
                             std::span<const PlacedCamera> cameras);
+
+/// Per-pixel truth of the scored camera C of one observation: the true left camera (stereo) or the
+/// depth camera (RGB-D).
+struct TruthImages {
+  CameraModel camera;
+  Pose X_WC;
+  /// `sees_point` is the view of the right camera (stereo) or of the projector (RGB-D).
+  AovImages aovs;
+  Band band;           ///< What `radiance` measures.
+  cv::Mat1f radiance;  ///< Before lens and sensor; see Band.
+  /// What a matcher should find [px]: (u_L − u_R, v_L − v_R) of the surface point between the true,
+  /// unrectified cameras (stereo), or f b / z between infra-red camera and projector (RGB-D). NaN
+  /// where nothing is hit or the point projects outside the right image.
+  cv::Mat2f disparity_px;
+};
 
 }  // namespace fenestra

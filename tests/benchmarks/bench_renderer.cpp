@@ -78,8 +78,8 @@ std::vector<RayPacket> MakePackets() {
       const PixelPatches patches = PatchesOf(rays.corner_data(), corner, stride);
       for (size_t sample = 0; sample < kSamples; ++sample) {
         PixelPoints points;
-        points.s.v.fill(ToUnit(ReverseBits(kNetTable.x[sample])));
-        points.t.v.fill(ToUnit(ReverseBits(kNetTable.y[sample])));
+        points.s.v.fill(ToUnit(ReverseBits(kSobolTable.x[sample])));
+        points.t.v.fill(ToUnit(ReverseBits(kSobolTable.y[sample])));
         const ImagePoints image = InPixels(patches, points);
         RayPacket& packet = packets.emplace_back();
         SetRays(packet, camera.p_WC, ToWorld(camera.axes, image.x, image.y));
@@ -173,9 +173,10 @@ void BM_PrimaryVisibility(benchmark::State& state) {
                            stride, index, static_cast<uint32_t>(rays.width_px()), scramble);
         const PixelPatches patches = PatchesOf(rays.corner_data(), block.corner, stride);
         for (size_t sample = 0; sample < kSamples; ++sample) {
-          const ImagePoints image = InPixels(
-              patches, ScrambledPoints(AllLanes(kNetTable.x[sample]), AllLanes(kNetTable.y[sample]),
-                                       block.seed_x, block.seed_y));
+          const ImagePoints image =
+              InPixels(patches, ScrambledPoints(AllLanes(kSobolTable.x[sample]),
+                                                AllLanes(kSobolTable.y[sample]), block.seed_x,
+                                                block.seed_y));
           RayPacket packet;
           SetRays(packet, camera.p_WC, ToWorld(camera.axes, image.x, image.y));
           traced.all_tracer().Intersect(all, packet, Coherence::kCoherent);

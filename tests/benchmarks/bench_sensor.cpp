@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/system/freed_memory.h"
+#include "core/system/program.h"
 #include "renderers/light/lane_kernels.h"
 #include "renderers/tracing/pane_kernels.h"
 #include "renderers/tracing/traced_scene.h"
@@ -45,10 +45,10 @@ BENCHMARK(BM_Gather)->Unit(benchmark::kMillisecond);
 void BM_Expose(benchmark::State& state) {
   const cv::Mat1f light = SomeLight()[0];
   const ImageSensor sensor({}, light.size(), RandomStream(2));
-  uint64_t frame = 0;
+  uint64_t image = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(sensor.Expose(light, {.exposure_s = 5e-3, .gain = 1.0},
-                                           RandomStream(3).Child("frame", frame++)));
+                                           RandomStream(3).Child("frame", image++)));
   }
 }
 BENCHMARK(BM_Expose)->Unit(benchmark::kMillisecond);
@@ -56,9 +56,9 @@ BENCHMARK(BM_Expose)->Unit(benchmark::kMillisecond);
 // The random numbers that an exposure cannot do without.
 void BM_Normals(benchmark::State& state) {
   cv::Mat1f normals(kHeight, kWidth);
-  uint64_t frame = 0;
+  uint64_t image = 0;
   for (auto _ : state) {
-    RandomStream(3).Child("frame", frame++).FillNormals({normals.ptr<float>(), normals.total()});
+    RandomStream(3).Child("frame", image++).FillNormals({normals.ptr<float>(), normals.total()});
     benchmark::DoNotOptimize(normals.data);
   }
 }
@@ -68,9 +68,9 @@ BENCHMARK(BM_Normals)->Unit(benchmark::kMillisecond);
 void BM_StereoPair(benchmark::State& state) {
   const QuarterImages light = SomeLight();
   const StereoRig rig({}, RandomStream(4));
-  uint64_t frame = 0;
+  uint64_t image = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(rig.Develop(light, light, RandomStream(3).Child("frame", frame++)));
+    benchmark::DoNotOptimize(rig.Develop(light, light, RandomStream(3).Child("frame", image++)));
   }
 }
 BENCHMARK(BM_StereoPair)->Unit(benchmark::kMillisecond);
@@ -83,7 +83,7 @@ void BM_RigConstruction(benchmark::State& state) {
 }
 BENCHMARK(BM_RigConstruction)->Unit(benchmark::kMillisecond);
 
-// A depth and a colour frame of a facade with one window, 2 m away. Argument: the depth model.
+// A depth and a colour image of a facade with one window, 2 m away. Argument: the depth model.
 void BM_RgbdFrame(benchmark::State& state) {
   StructuredLightOptions options;
   options.depth_model = static_cast<DepthModel>(state.range(0));
@@ -92,10 +92,10 @@ void BM_RgbdFrame(benchmark::State& state) {
   Lighting lighting;
   lighting.sky.illuminance_lx = 1000.0;
   const Pose X_WB = RigPose({.distance_m = 2.0}, Pose());
-  uint64_t frame = 0;
+  uint64_t image = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        sensor.Observe(caster, lighting, X_WB, RandomStream(3).Child("frame", frame++)));
+        sensor.Observe(caster, lighting, X_WB, RandomStream(3).Child("frame", image++)));
   }
 }
 BENCHMARK(BM_RgbdFrame)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
@@ -108,7 +108,7 @@ struct FacadeView {
   FacadeView() { lighting.sky.illuminance_lx = 1000.0; }
 };
 
-// The light of the colour frame alone. Arguments: samples per pixel, samples in pixels with edges
+// The light of the colour image alone. Arguments: samples per pixel, samples in pixels with edges
 // (as many: edges are not searched), lines on which edges are searched.
 void BM_ColorLight(benchmark::State& state) {
   const FacadeView view;
@@ -155,7 +155,7 @@ std::vector<RayPacket> PacketsOf(const CameraModel& model, const Pose& X_WC) {
   return packets;
 }
 
-// Embree alone on one ray for each pixel of a colour frame and of a depth frame's camera, and on
+// Embree alone on one ray for each pixel of a colour image and of a depth image, and on
 // one from where the latter end to the projector. Argument: the depth camera's width.
 void BM_BareRgbdRays(benchmark::State& state) {
   const FacadeView view;
@@ -199,8 +199,8 @@ void BM_BareRgbdRays(benchmark::State& state) {
 }
 BENCHMARK(BM_BareRgbdRays)->ArgName("width")->Arg(320)->Arg(640)->Unit(benchmark::kMillisecond);
 
-// The depth frame alone.
-void BM_DepthFrame(benchmark::State& state) {
+// The depth image alone.
+void BM_DepthImage(benchmark::State& state) {
   StructuredLightOptions options;
   options.depth_model = static_cast<DepthModel>(state.range(0));
   const StructuredLightSensor sensor(options);
@@ -208,13 +208,13 @@ void BM_DepthFrame(benchmark::State& state) {
   Lighting lighting;
   lighting.sky.illuminance_lx = 1000.0;
   const Pose X_WB = RigPose({.distance_m = 2.0}, Pose());
-  uint64_t frame = 0;
+  uint64_t image = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        sensor.ObserveDepth(caster, lighting, X_WB, RandomStream(3).Child("frame", frame++)));
+        sensor.ObserveDepth(caster, lighting, X_WB, RandomStream(3).Child("frame", image++)));
   }
 }
-BENCHMARK(BM_DepthFrame)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_DepthImage)->ArgName("model")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace fenestra

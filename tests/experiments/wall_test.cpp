@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/detection/observation_files.h"
+#include "core/detection/observation.h"
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 #include "experiments/trial/scoring.h"
 #include "experiments/trial_files/trial_files.h"
 #include "tests/support/temporary_folder.h"
@@ -98,7 +98,7 @@ TEST(WallTest, WhyPixelsHaveNoReturnStandsInTheTruthAlone) {
     const CellRunner runner(study, cell);
     const SimulatedTrial simulated = runner.Simulate(0);
     const auto* seen = std::get_if<RgbdObservation>(&simulated.observation);
-    const std::optional<DepthFrame> depth = runner.DepthOf(simulated);
+    const std::optional<ExplainedDepth> depth = runner.DepthOf(simulated);
     ASSERT_EQ(seen != nullptr, depth.has_value());
     if (seen == nullptr) continue;
     any = true;

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 #include "vision/external/detector_protocol.h"
 
 // A libFuzzer target: any line at all is an answer or a DetectorFailure, an answer is written and

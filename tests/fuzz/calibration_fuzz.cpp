@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
 #include "tests/fuzz/input_file.h"
 

@@ -5,7 +5,7 @@
 
 #include "core/io/input_error.h"
 #include "renderers/ray_caster.h"
-#include "renderers/tracing/fresnel.h"
+#include "renderers/tracing/pane_kernels.h"
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
 #include "tests/renderers/test_scenes.h"

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "renderers/ray_caster.h"
-#include "renderers/tracing/fresnel.h"
+#include "renderers/tracing/pane_kernels.h"
 #include "scenes/facade/facade.h"
 #include "tests/renderers/test_scenes.h"
 

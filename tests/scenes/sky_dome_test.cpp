@@ -1,4 +1,4 @@
-#include "scenes/sky_dome.h"
+#include "scenes/lighting.h"
 
 #include <gtest/gtest.h>
 

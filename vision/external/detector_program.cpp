@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 #include "core/io/input_error.h"
 
 namespace fenestra {

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "core/detection/detection_json.h"
-#include "core/detection/observation_files.h"
+#include "core/detection/observation.h"
 #include "vision/external/external_command.h"
 
 namespace fenestra {

@@ -1,6 +1,6 @@
 #include "vision/external/external_detector.h"
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 #include "core/io/input_error.h"
 #include "core/system/check.h"
 

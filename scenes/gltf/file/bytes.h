@@ -4,6 +4,8 @@
 #include <cstring>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -43,5 +45,11 @@ class ByteBudget {
 /// The whole of a regular file. Throws InputError for any other file, one that cannot be read and
 /// one beyond the budget.
 Bytes ReadWholeFile(const std::filesystem::path& file, ByteBudget& budget);
+
+/// What a URI in a glTF file refers to: data inside the URI itself, or a file in the folder of the
+/// glTF file or below it. Nothing else is ever opened: no other scheme, no absolute path, no way
+/// out by ".." or by a symbolic link. Throws std::invalid_argument with the reason, or InputError
+/// where the file itself cannot be read.
+Bytes ReadUri(std::string_view uri, const std::filesystem::path& folder, ByteBudget& budget);
 
 }  // namespace fenestra::gltf

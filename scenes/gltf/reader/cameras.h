@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "scenes/gltf/reader/asset.h"
-#include "scenes/gltf/reader/notes.h"
 #include "scenes/gltf/reader/placement.h"
 
 namespace fenestra::gltf {

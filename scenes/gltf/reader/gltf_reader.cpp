@@ -11,7 +11,6 @@
 #include "scenes/gltf/reader/lights.h"
 #include "scenes/gltf/reader/materials.h"
 #include "scenes/gltf/reader/meshes.h"
-#include "scenes/gltf/reader/notes.h"
 #include "scenes/gltf/reader/placement.h"
 #include "scenes/gltf/reader/windows.h"
 

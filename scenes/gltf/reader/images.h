@@ -1,14 +1,29 @@
 #pragma once
 
+#include <cstdint>
 #include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/io/faults.h"
 #include "scenes/gltf/reader/asset.h"
-#include "scenes/texture.h"
+#include "scenes/scene.h"
 
 namespace fenestra::gltf {
+
+/// What a PNG or JPEG file says of itself before anything is decompressed.
+struct ImageHeader {
+  enum class Format { kPng, kJpeg, kOther };
+  Format format = Format::kOther;
+  uint32_t width_px = 0;
+  uint32_t height_px = 0;
+  /// The file's end mark is there: it was not cut off.
+  bool is_complete = false;
+};
+
+/// Reads the marks of the container only; never fails, as other formats are `kOther`.
+ImageHeader ReadImageHeader(std::span<const uint8_t> bytes);
 
 /// A decoded image: sRGB-encoded colours and linear alpha, row-major from the top left.
 struct Picture {

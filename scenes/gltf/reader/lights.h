@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "scenes/gltf/reader/asset.h"
-#include "scenes/gltf/reader/notes.h"
 #include "scenes/gltf/reader/placement.h"
 
 namespace fenestra::gltf {

@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "scenes/gltf/reader/asset.h"
-#include "scenes/gltf/reader/notes.h"
-#include "scenes/gltf/reader/texture_use.h"
+#include "scenes/gltf/reader/textures.h"
 #include "scenes/scene.h"
 
 namespace fenestra::gltf {

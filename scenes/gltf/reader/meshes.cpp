@@ -6,11 +6,11 @@
 
 #include "core/io/input_error.h"
 #include "scenes/gltf/file/values.h"
-#include "scenes/gltf/reader/instancing.h"
+#include "scenes/gltf/reader/placement.h"
 #include "scenes/gltf/reader/skinning.h"
 #include "scenes/gltf/reader/surfaces.h"
 #include "scenes/gltf/reader/world_surface.h"
-#include "scenes/gltf/validation/instance_attributes.h"
+#include "scenes/gltf/validation/extensions.h"
 
 namespace fenestra::gltf {
 namespace {

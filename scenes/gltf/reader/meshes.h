@@ -4,7 +4,6 @@
 
 #include "scenes/gltf/reader/asset.h"
 #include "scenes/gltf/reader/materials.h"
-#include "scenes/gltf/reader/notes.h"
 #include "scenes/gltf/reader/placement.h"
 #include "scenes/scene.h"
 

@@ -30,4 +30,8 @@ struct ScaledPose {
 /// nullopt for a sheared, mirrored or singular transform. A rigid transform keeps its bits.
 std::optional<ScaledPose> RigidPart(const Eigen::Matrix4d& M_WN);
 
+/// M_NI of each instance I of a node's mesh (see InstanceAttributes); the identity without the
+/// extension. Throws InputError for a rotation that is none.
+std::vector<Eigen::Matrix4d> InstanceTransforms(const Asset& asset, const tinygltf::Node& node);
+
 }  // namespace fenestra::gltf

@@ -8,7 +8,6 @@
 
 #include "core/io/input_error.h"
 #include "scenes/gltf/reader/accessors.h"
-#include "scenes/gltf/reader/triangles.h"
 
 namespace fenestra::gltf {
 namespace {

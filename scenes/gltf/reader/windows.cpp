@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/io/did_you_mean.h"
 #include "core/io/faults.h"
 #include "scenes/gltf/file/document.h"
 #include "scenes/gltf/file/values.h"

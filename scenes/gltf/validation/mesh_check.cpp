@@ -5,7 +5,6 @@
 #include <set>
 
 #include "scenes/gltf/file/document.h"
-#include "scenes/gltf/validation/element_layout.h"
 #include "scenes/gltf/validation/structure_check.h"
 
 namespace fenestra::gltf {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/io/did_you_mean.h"
+#include "core/io/faults.h"
 #include "scenes/gltf/file/document.h"
 #include "scenes/gltf/validation/extensions.h"
 #include "scenes/gltf/validation/schema.h"

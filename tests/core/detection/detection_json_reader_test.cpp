@@ -12,7 +12,7 @@ using nlohmann::ordered_json;
 using ::testing::HasSubstr;
 
 // A window 1 m wide and 2 m before the camera, facing it.
-ordered_json Window() {
+ordered_json WindowJson() {
   return ordered_json::parse(R"({"outcome": "window", "centroid_m": [0, 0, 2],
     "corners_m": [[-0.5, -0.5, 2], [0.5, -0.5, 2], [0.5, 0.5, 2], [-0.5, 0.5, 2]]})");
 }
@@ -31,7 +31,7 @@ std::string ComplaintOf(const ordered_json& json) {
 }
 
 std::string ComplaintWith(const std::string& key, const ordered_json& value) {
-  ordered_json json = Window();
+  ordered_json json = WindowJson();
   json[key] = value;
   return ComplaintOf(json);
 }
@@ -72,13 +72,13 @@ TEST(DetectionJsonReader, AMissIsReadWithItsReason) {
 
 // The corners go clockwise as seen, so the normal comes towards the camera.
 TEST(DetectionJsonReader, AMissingNormalIsThatOfTheCorners) {
-  const auto window = std::get<WindowEstimate>(DetectionFromJson(Window()).detection);
+  const auto window = std::get<WindowEstimate>(DetectionFromJson(WindowJson()).detection);
   EXPECT_EQ(window.normal_C, -Eigen::Vector3d::UnitZ());
-  ordered_json reversed = Window();
+  ordered_json reversed = WindowJson();
   std::reverse(reversed["corners_m"].begin(), reversed["corners_m"].end());
   EXPECT_EQ(std::get<WindowEstimate>(DetectionFromJson(reversed).detection).normal_C,
             -Eigen::Vector3d::UnitZ());
-  ordered_json flat = Window();
+  ordered_json flat = WindowJson();
   for (ordered_json& corner : flat["corners_m"]) corner[1] = 0.0;
   EXPECT_THAT(ComplaintOf(flat), HasSubstr("the corners span no plane"));
 }
@@ -90,7 +90,7 @@ TEST(DetectionJsonReader, OtherKeysAreIgnored) {
 
 TEST(DetectionJsonReader, WhatIsMissingIsNamed) {
   for (const char* key : {"outcome", "centroid_m", "corners_m"}) {
-    ordered_json json = Window();
+    ordered_json json = WindowJson();
     json.erase(key);
     EXPECT_THAT(ComplaintOf(json), HasSubstr(std::string("'") + key + "' is missing"));
   }
@@ -128,7 +128,7 @@ TEST(DetectionJsonReader, TimesAreNotNegative) {
 // What a program sends costs no more than a list of bounded length.
 TEST(DetectionJsonReader, ListsAreBounded) {
   ordered_json others = ordered_json::array();
-  for (int i = 0; i < 1001; ++i) others.push_back(Window());
+  for (int i = 0; i < 1001; ++i) others.push_back(WindowJson());
   EXPECT_THAT(ComplaintWith("others", others), HasSubstr("at most 1000 windows"));
   ordered_json stages = ordered_json::object();
   for (int i = 0; i < 101; ++i) stages["s" + std::to_string(i)] = 0.0;

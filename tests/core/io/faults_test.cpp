@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace fenestra {
 namespace {
@@ -61,6 +63,24 @@ TEST(FaultsTest, FaultsBeyondTheMostAreCounted) {
   for (int i = 0; i < 5; ++i) faults.Add(std::to_string(i));
   EXPECT_EQ(faults.count(), 5u);
   EXPECT_EQ(Report(faults), "f: 0\nf: 1\nf: and 3 more faults");
+}
+
+const std::vector<std::string> kWords = {"distance_m", "azimuth_deg", "yaw_deg", "glass"};
+
+TEST(DidYouMeanTest, FindsTheNearestWord) {
+  EXPECT_EQ(DidYouMean("distnace_m", kWords), " Did you mean 'distance_m'?");
+  EXPECT_EQ(DidYouMean("azimut_deg", kWords), " Did you mean 'azimuth_deg'?");
+  EXPECT_EQ(DidYouMean("glas", kWords), " Did you mean 'glass'?");
+}
+
+TEST(DidYouMeanTest, ANameWithoutItsUnitIsNear) {
+  EXPECT_EQ(DidYouMean("distance", kWords), " Did you mean 'distance_m'?");
+}
+
+TEST(DidYouMeanTest, KeepsSilentWhereNothingIsNear) {
+  EXPECT_EQ(DidYouMean("reflectance", kWords), "");
+  EXPECT_EQ(DidYouMean("", kWords), "");
+  EXPECT_EQ(DidYouMean(std::string(100000, 'x'), kWords), "");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/image_io.h"
 #include "tests/experiments/cli/expect_refused.h"
 #include "tests/support/temporary_folder.h"

@@ -74,8 +74,8 @@ PixelNoise Noise(double saturation_e = 1e9) {
   return PixelNoise::Linear(sensor, {.exposure_s = 1e-3, .gain = 1.0});
 }
 
-std::optional<Eigen::MatrixXd> Information(const FrameState& frame, const cv::Mat1f& electrons,
-                                           const PixelNoise& noise) {
+std::optional<Eigen::MatrixXd> InformationIn(const FrameState& frame, const cv::Mat1f& electrons,
+                                             const PixelNoise& noise) {
   const CameraModel camera = Camera();
   return PictureInformation(frame,
                             {.camera = camera,
@@ -91,7 +91,7 @@ std::optional<Eigen::MatrixXd> Information(const FrameState& frame, const cv::Ma
 }
 
 Eigen::MatrixXd Usual(const FrameState& frame) {
-  const auto information = Information(frame, Electrons(frame, {}), Noise(20000.0));
+  const auto information = InformationIn(frame, Electrons(frame, {}), Noise(20000.0));
   EXPECT_TRUE(information.has_value());
   return information.value_or(Eigen::MatrixXd::Zero(kAll, kAll));
 }
@@ -160,8 +160,8 @@ TEST(PictureInformation, AMirroredFrameHasTheMirroredInformation) {
 // V itself tells, (∂V/V)²/2, does not grow and is a thousandth of it here.
 TEST(PictureInformation, GrowsWithTheLightAsShotNoiseSays) {
   const FrameState frame = Frame(0.2);
-  const auto once = Information(frame, Electrons(frame, {}), Noise());
-  const auto fourfold = Information(frame, Electrons(frame, {}, 4.0), Noise());
+  const auto once = InformationIn(frame, Electrons(frame, {}), Noise());
+  const auto fourfold = InformationIn(frame, Electrons(frame, {}, 4.0), Noise());
   ASSERT_TRUE(once && fourfold);
   for (int i = 0; i < kFrameUnknowns; ++i) {
     EXPECT_NEAR((*fourfold)(i, i) / (*once)(i, i), 4.0, 0.01) << i;
@@ -171,7 +171,7 @@ TEST(PictureInformation, GrowsWithTheLightAsShotNoiseSays) {
 TEST(PictureInformation, AFrameAsBrightAsItsWallIsNotSeen) {
   const FrameState frame = Frame();
   const Levels even{.wall_e = 5000.0, .frame_e = 5000.0, .opening_e = 5000.0};
-  const auto information = Information(frame, Electrons(frame, even), Noise());
+  const auto information = InformationIn(frame, Electrons(frame, even), Noise());
   ASSERT_TRUE(information.has_value());
   EXPECT_LT((information->topLeftCorner<kFrameUnknowns, kFrameUnknowns>().norm()), 1e-6);
   // Each side's levels are still told.
@@ -180,9 +180,9 @@ TEST(PictureInformation, AFrameAsBrightAsItsWallIsNotSeen) {
 
 TEST(PictureInformation, SaturatedPixelsTellNothing) {
   const FrameState frame = Frame();
-  const auto all = Information(frame, Electrons(frame, {}), Noise(20000.0));
-  const auto no_wall = Information(frame, Electrons(frame, {}), Noise(5000.0));
-  const auto none = Information(frame, Electrons(frame, {}), Noise(500.0));
+  const auto all = InformationIn(frame, Electrons(frame, {}), Noise(20000.0));
+  const auto no_wall = InformationIn(frame, Electrons(frame, {}), Noise(5000.0));
+  const auto none = InformationIn(frame, Electrons(frame, {}), Noise(500.0));
   ASSERT_TRUE(all && no_wall && none);
   EXPECT_LT((*no_wall)(0, 0), (*all)(0, 0));
   EXPECT_GT((*no_wall)(0, 0), 0.0);
@@ -206,9 +206,9 @@ TEST(PictureInformation, EachSideHasLevelsOfItsOwn) {
 TEST(PictureInformation, WhereACornerIsNotSeenThereIsNone) {
   FrameState frame = Frame();
   frame.X_CO = Pose(frame.X_CO.rotation(), {1.2, 0.0, kDistance_m});
-  EXPECT_FALSE(Information(frame, Electrons(frame, {}), Noise()));
+  EXPECT_FALSE(InformationIn(frame, Electrons(frame, {}), Noise()));
   frame.X_CO = Pose(frame.X_CO.rotation(), {0.0, 0.0, -kDistance_m});
-  EXPECT_FALSE(Information(frame, Electrons(Frame(), {}), Noise()));
+  EXPECT_FALSE(InformationIn(frame, Electrons(Frame(), {}), Noise()));
 }
 
 }  // namespace

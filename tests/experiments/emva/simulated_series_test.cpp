@@ -11,11 +11,11 @@
 namespace fenestra::emva {
 namespace {
 
-SimulationOptions Small() {
+SimulationOptions ShortSeries() {
   return {.size = {64, 48}, .exposures = 10, .frames = 5};
 }
 
-ImageSensorOptions TenBits() {
+ImageSensorOptions TenBitSensor() {
   ImageSensorOptions sensor;
   sensor.output_bits = 10;
   return sensor;
@@ -33,7 +33,7 @@ double MeanOf(const cv::Mat1w& frame) {
 }
 
 TEST(SimulatedSeries, HasAPairInLightAndDarkAtEachExposureAndTwoStacks) {
-  const Series series = PlanSeries(Small(), TenBits());
+  const Series series = PlanSeries(ShortSeries(), TenBitSensor());
   EXPECT_EQ(series.bits, 10);
   EXPECT_EQ(series.size, cv::Size(64, 48));
   ASSERT_EQ(series.sets.size(), 2u * 10u + 2u);
@@ -54,8 +54,8 @@ TEST(SimulatedSeries, HasAPairInLightAndDarkAtEachExposureAndTwoStacks) {
 }
 
 TEST(SimulatedSeries, LightIsConstantAndEndsBeyondSaturation) {
-  const SimulationOptions options = Small();
-  const ImageSensorOptions sensor = TenBits();
+  const SimulationOptions options = ShortSeries();
+  const ImageSensorOptions sensor = TenBitSensor();
   const Series series = PlanSeries(options, sensor);
   const double per_s = series.sets[0].photons / series.sets[0].exposure_s;
   for (const FrameSet& set : series.sets) {
@@ -70,18 +70,18 @@ TEST(SimulatedSeries, LightIsConstantAndEndsBeyondSaturation) {
 }
 
 TEST(SimulatedSeries, ExposuresAreWholeMicroseconds) {
-  SimulationOptions options = Small();
+  SimulationOptions options = ShortSeries();
   options.exposures = 11;
   options.longest_exposure_s = 1e-3;
-  for (const FrameSet& set : PlanSeries(options, TenBits()).sets) {
+  for (const FrameSet& set : PlanSeries(options, TenBitSensor()).sets) {
     EXPECT_NEAR(1e6 * set.exposure_s, std::round(1e6 * set.exposure_s), 1e-6);
     EXPECT_GE(set.exposure_s, 1e-6);
   }
 }
 
 TEST(SimulatedSeries, AFramesMeanIsThatOfItsPhotons) {
-  const SimulationOptions options = Small();
-  const ImageSensorOptions sensor = TenBits();
+  const SimulationOptions options = ShortSeries();
+  const ImageSensorOptions sensor = TenBitSensor();
   const Series series = PlanSeries(options, sensor);
   const FrameReader frames = Simulate(options, sensor, RandomStream(1));
   const PutIn put_in = PutInBy(options, sensor);
@@ -95,11 +95,11 @@ TEST(SimulatedSeries, AFramesMeanIsThatOfItsPhotons) {
 }
 
 TEST(SimulatedSeries, AFrameIsAFunctionOfItsSetAndNumber) {
-  const SimulationOptions options = Small();
-  const Series series = PlanSeries(options, TenBits());
-  const FrameReader once = Simulate(options, TenBits(), RandomStream(1));
-  const FrameReader again = Simulate(options, TenBits(), RandomStream(1));
-  const FrameReader other = Simulate(options, TenBits(), RandomStream(2));
+  const SimulationOptions options = ShortSeries();
+  const Series series = PlanSeries(options, TenBitSensor());
+  const FrameReader once = Simulate(options, TenBitSensor(), RandomStream(1));
+  const FrameReader again = Simulate(options, TenBitSensor(), RandomStream(1));
+  const FrameReader other = Simulate(options, TenBitSensor(), RandomStream(2));
   const auto differing = [](const cv::Mat1w& a, const cv::Mat1w& b) {
     return cv::countNonZero(a != b);
   };
@@ -112,8 +112,8 @@ TEST(SimulatedSeries, AFrameIsAFunctionOfItsSetAndNumber) {
 }
 
 TEST(SimulatedSeries, FramesOfAStackShareTheCamerasPattern) {
-  const SimulationOptions options = Small();
-  ImageSensorOptions sensor = TenBits();
+  const SimulationOptions options = ShortSeries();
+  ImageSensorOptions sensor = TenBitSensor();
   sensor.noise = false;
   const Series series = PlanSeries(options, sensor);
   const FrameReader frames = Simulate(options, sensor, RandomStream(1));
@@ -125,14 +125,14 @@ TEST(SimulatedSeries, FramesOfAStackShareTheCamerasPattern) {
 }
 
 TEST(SimulatedSeries, FiguresThatAreSwitchedOffAreNought) {
-  ImageSensorOptions sensor = TenBits();
-  const PutIn all = PutInBy(Small(), sensor);
+  ImageSensorOptions sensor = TenBitSensor();
+  const PutIn all = PutInBy(ShortSeries(), sensor);
   EXPECT_EQ(all.dark_noise_e, std::hypot(sensor.read_noise_e, sensor.row_noise_e));
   EXPECT_EQ(all.dsnu_e, sensor.dsnu_e);
   EXPECT_EQ(all.prnu, sensor.prnu);
   sensor.noise = false;
   sensor.fixed_pattern = false;
-  const PutIn none = PutInBy(Small(), sensor);
+  const PutIn none = PutInBy(ShortSeries(), sensor);
   EXPECT_EQ(none.dark_noise_e, 0.0);
   EXPECT_EQ(none.dsnu_e, 0.0);
   EXPECT_EQ(none.prnu, 0.0);
@@ -141,14 +141,14 @@ TEST(SimulatedSeries, FiguresThatAreSwitchedOffAreNought) {
 // Where the variance is largest: with equal pixels, two or three standard deviations, 126 e at
 // 16000 e, before full scale; pixels of different sensitivity are clipped earlier.
 TEST(SimulatedSeries, SaturationIsWherePixelsBeginToBeClipped) {
-  ImageSensorOptions sensor = TenBits();
-  const double uneven_e = PutInBy(Small(), sensor).saturation_e;
+  ImageSensorOptions sensor = TenBitSensor();
+  const double uneven_e = PutInBy(ShortSeries(), sensor).saturation_e;
   sensor.fixed_pattern = false;
-  const double even_e = PutInBy(Small(), sensor).saturation_e;
+  const double even_e = PutInBy(ShortSeries(), sensor).saturation_e;
   EXPECT_LT(even_e, sensor.saturation_e - 126.0);
   EXPECT_GT(even_e, sensor.saturation_e - 5.0 * 126.0);
   EXPECT_LT(uneven_e, even_e);
-  SimulationOptions amplified = Small();
+  SimulationOptions amplified = ShortSeries();
   amplified.gain = 4.0;
   EXPECT_LT(PutInBy(amplified, sensor).saturation_e, even_e / 4.0);
 }

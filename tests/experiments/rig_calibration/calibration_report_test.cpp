@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -45,7 +45,7 @@ std::shared_ptr<const TrialRunner> MakeSlowRunner(const Study& study, const Cell
     Attempt Try(size_t detector, const SimulatedTrial& s, bool keep) const override {
       return quick_.Try(detector, s, keep);
     }
-    std::optional<DepthFrame> DepthOf(const SimulatedTrial& simulated) const override {
+    std::optional<ExplainedDepth> DepthOf(const SimulatedTrial& simulated) const override {
       return quick_.DepthOf(simulated);
     }
     TrueSensor SensorOf(const SimulatedTrial& s) const override { return quick_.SensorOf(s); }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
 #include "experiments/report/report.h"
 #include "experiments/run/run_study.h"

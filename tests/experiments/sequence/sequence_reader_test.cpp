@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/geometry/calibration_io.h"
+#include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
 #include "experiments/sequence/sequence.h"
 #include "tests/support/temporary_folder.h"

@@ -12,7 +12,7 @@
 namespace fenestra {
 
 /// What every study begins with.
-inline const std::string kHead = "name: test\nrepetitions: 2\n";
+inline const std::string kStudyHead = "name: test\nrepetitions: 2\n";
 
 /// A kind of bad study, with the position and the hint that its author gets.
 struct BadStudy {
@@ -26,7 +26,7 @@ struct BadStudy {
 };
 
 inline std::string WithFactor(const std::string& line) {
-  return kHead + "factors:\n  " + line + "\n";
+  return kStudyHead + "factors:\n  " + line + "\n";
 }
 
 inline std::string NameOf(const ::testing::TestParamInfo<BadStudy>& info) {

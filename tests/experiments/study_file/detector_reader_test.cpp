@@ -10,25 +10,26 @@ namespace {
 
 std::vector<BadStudy> BadDetectors() {
   return {
-      {"unknown", kHead + "detectors: [paper-sterio]\n",
+      {"unknown", kStudyHead + "detectors: [paper-sterio]\n",
        "3:13: unknown detector 'paper-sterio'. Did you mean 'paper-stereo'?"},
-      {"nothing like it", kHead + "detectors: [yolo]\n",
+      {"nothing like it", kStudyHead + "detectors: [yolo]\n",
        "3:13: unknown detector 'yolo'. Known: paper-stereo, other-stereo, paper-rgbd."},
-      {"none", kHead + "detectors: []\n", "3:12: detectors must be a list of at least one"},
-      {"without name", kHead + "detectors: [{label: a}]\n", "a detector needs a name"},
-      {"option", kHead + "detectors:\n  - name: paper-stereo\n    options: {windw_px: 7}\n",
+      {"none", kStudyHead + "detectors: []\n", "3:12: detectors must be a list of at least one"},
+      {"without name", kStudyHead + "detectors: [{label: a}]\n", "a detector needs a name"},
+      {"option", kStudyHead + "detectors:\n  - name: paper-stereo\n    options: {windw_px: 7}\n",
        "5:15: unknown key 'windw_px' in options of paper-stereo. Did you mean 'window_px'?"},
       {"option value",
-       kHead + "detectors:\n  - name: paper-stereo\n    options: {window_px: 7.5}\n",
+       kStudyHead + "detectors:\n  - name: paper-stereo\n    options: {window_px: 7.5}\n",
        "5:26: window_px must be a whole number from 5 to 31, not '7.5'"},
-      {"label twice", kHead + "detectors: [paper-stereo, paper-rgbd, paper-stereo]\n",
+      {"label twice", kStudyHead + "detectors: [paper-stereo, paper-rgbd, paper-stereo]\n",
        "3:39: two detectors are called 'paper-stereo': give this one a label"},
-      {"without its sensor", kHead + "sensors: [rgbd]\ndetectors: [paper-rgbd, other-stereo]\n",
+      {"without its sensor",
+       kStudyHead + "sensors: [rgbd]\ndetectors: [paper-rgbd, other-stereo]\n",
        "4:25: other-stereo works on stereo, which part 'main' does not use"},
       {"without its sensor in any part",
-       kHead + "detectors: [paper-rgbd, other-stereo]\nparts: [{name: a, sensors: [rgbd]}]\n",
+       kStudyHead + "detectors: [paper-rgbd, other-stereo]\nparts: [{name: a, sensors: [rgbd]}]\n",
        "3:25: other-stereo works on stereo, which no part uses"},
-      {"sensor without", kHead + "detectors: [paper-rgbd]\n",
+      {"sensor without", kStudyHead + "detectors: [paper-rgbd]\n",
        "part 'main' has no detector for its sensor stereo"},
   };
 }
@@ -43,7 +44,7 @@ INSTANTIATE_TEST_SUITE_P(Detectors, DetectorReaderRejects, ::testing::ValuesIn(B
                          NameOf);
 
 TEST(DetectorReader, TellsOptionsFromDefaults) {
-  const Study study = ReadText(kHead +
+  const Study study = ReadText(kStudyHead +
                                "detectors:\n  - {name: paper-stereo, label: census-31, options: "
                                "{window_px: 31, matcher: census}}\n  - paper-stereo\n"
                                "sensors: [stereo]\n");

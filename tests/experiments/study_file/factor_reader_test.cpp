@@ -108,7 +108,7 @@ std::variant<Levels, Distribution> SettingOf(const Study& study, const std::stri
 }
 
 std::variant<Levels, Distribution> ReadFactor(const std::string& name, const std::string& text) {
-  return SettingOf(ReadText(kHead + "factors:\n  " + name + ": " + text + "\n"), name);
+  return SettingOf(ReadText(kStudyHead + "factors:\n  " + name + ": " + text + "\n"), name);
 }
 
 TEST(FactorReader, ReadsEveryFormOfAFactor) {

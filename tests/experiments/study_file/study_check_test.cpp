@@ -11,18 +11,20 @@ namespace {
 
 std::vector<BadStudy> BadWholes() {
   return {
-      {"no effect on the sensor", kHead + "sensors: [stereo]\nfactors:\n  rgbd_near_mode: true\n",
+      {"no effect on the sensor",
+       kStudyHead + "sensors: [stereo]\nfactors:\n  rgbd_near_mode: true\n",
        "5:3: rgbd_near_mode has no effect: part 'main' uses another sensor"},
       {"no effect in the scene", WithFactor("glass: true"),
        "4:3: glass has no effect on the painted target; it needs scene: facade"},
-      {"no effect in any part", kHead + "factors:\n  glass: true\nparts: [{name: a}, {name: b}]\n",
+      {"no effect in any part",
+       kStudyHead + "factors:\n  glass: true\nparts: [{name: a}, {name: b}]\n",
        "4:3: glass has no effect in any part"},
       {"too many cells",
-       kHead + "factors:\n  yaw_deg: {from: 0, to: 99, step: 1}\n"
-               "  roll_deg: {from: 0, to: 50, step: 1}\n",
+       kStudyHead + "factors:\n  yaw_deg: {from: 0, to: 99, step: 1}\n"
+                    "  roll_deg: {from: 0, to: 50, step: 1}\n",
        "the study has 10200 cells; at most 10000 are allowed"},
       {"uncountably many",
-       kHead + "sensors: [rgbd]\nfactors:\n" +
+       kStudyHead + "sensors: [rgbd]\nfactors:\n" +
            [] {
              std::string lines;
              for (const char* name : {"yaw_deg", "roll_deg", "pitch_deg", "azimuth_deg",
@@ -51,7 +53,7 @@ std::vector<BadStudy> Contradictions() {
        WithFactor("window_width_m: {uniform: [0.5, 1]}\n  frame_width_m: {uniform: [0.1, 0.3]}"),
        "part 'main' contradicts itself"},
       {"window larger than the wall",
-       kHead + "parts:\n  - name: a\n  - name: b\n    factors:\n      wall_width_m: 0.5\n",
+       kStudyHead + "parts:\n  - name: a\n  - name: b\n    factors:\n      wall_width_m: 0.5\n",
        "7:7: part 'b' contradicts itself: paper_target: a target of 1 m x 1 m does not fit"},
       {"in the facade", WithFactor("scene: facade\n  frame_width_m: 0.7"), "5:3: part 'main'"},
       {"samples", WithFactor("stereo_edge_samples: 100"),

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(StudyReader, FillsInAllDefaults) {
-  const Study study = ReadText(kHead);
+  const Study study = ReadText(kStudyHead);
   EXPECT_EQ(study.seed, 1u);
   EXPECT_FALSE(study.independent_cells);
   ASSERT_EQ(study.parts.size(), 1u);
@@ -65,7 +65,7 @@ parts:
 
 // The corners of what is drawn are tried, not the far ends of a normal distribution.
 TEST(StudyReader, AcceptsWhatIsNeverDrawn) {
-  EXPECT_THAT(FaultsOf(kHead + "factors:\n  window_width_m: {normal: {mean: 1, sd: 0.01}}\n"),
+  EXPECT_THAT(FaultsOf(kStudyHead + "factors:\n  window_width_m: {normal: {mean: 1, sd: 0.01}}\n"),
               IsEmpty());
 }
 
@@ -74,27 +74,29 @@ std::vector<BadStudy> BadStructures() {
       {"a list", "[1, 2]", "1:1: the study must be a mapping"},
       {"no name", "repetitions: 2\n", "1:1: the study needs a name"},
       {"name of a path", "name: ../x\nrepetitions: 2\n", "1:7: name must be 1 to 64 of"},
-      {"unknown key", kHead + "sede: 2\n",
+      {"unknown key", kStudyHead + "sede: 2\n",
        "3:1: unknown key 'sede' in the study. Did you mean "
        "'seed'?"},
-      {"negative seed", kHead + "seed: -1\n",
+      {"negative seed", kStudyHead + "seed: -1\n",
        "3:7: seed must be a whole number from 0 to "
        "9223372036854775807"},
-      {"seed too large", kHead + "seed: 9223372036854775808\n", "3:7: seed must be"},
+      {"seed too large", kStudyHead + "seed: 9223372036854775808\n", "3:7: seed must be"},
       {"no repetitions", "name: test\n", "1:1: part 'main' needs repetitions"},
       {"repetitions 0", "name: test\nrepetitions: 0\n",
        "2:14: repetitions must be a whole number "
        "from 1 to 1000000"},
-      {"unknown sensor", kHead + "sensors: [lidar]\n",
+      {"unknown sensor", kStudyHead + "sensors: [lidar]\n",
        "3:11: unknown sensor 'lidar'. Known: "
        "stereo, rgbd."},
-      {"sensor twice", kHead + "sensors: [rgbd, rgbd]\n", "3:17: the sensor 'rgbd' stands twice"},
-      {"no sensors", kHead + "sensors: []\n", "3:10: sensors must be a list"},
-      {"no parts", kHead + "parts: []\n", "3:8: parts must be a list of at least one part"},
-      {"part without name", kHead + "parts:\n  - {repetitions: 3}\n", "4:5: a part needs a name"},
-      {"parts of one name", kHead + "parts:\n  - name: a\n  - name: b\n  - name: a\n",
+      {"sensor twice", kStudyHead + "sensors: [rgbd, rgbd]\n",
+       "3:17: the sensor 'rgbd' stands twice"},
+      {"no sensors", kStudyHead + "sensors: []\n", "3:10: sensors must be a list"},
+      {"no parts", kStudyHead + "parts: []\n", "3:8: parts must be a list of at least one part"},
+      {"part without name", kStudyHead + "parts:\n  - {repetitions: 3}\n",
+       "4:5: a part needs a name"},
+      {"parts of one name", kStudyHead + "parts:\n  - name: a\n  - name: b\n  - name: a\n",
        "6:11: two parts are called 'a'"},
-      {"unknown key in a part", kHead + "parts:\n  - name: a\n    factor: {distance_m: 2}\n",
+      {"unknown key in a part", kStudyHead + "parts:\n  - name: a\n    factor: {distance_m: 2}\n",
        "5:5: unknown key 'factor' in a part. Did you mean 'factors'?"},
   };
 }

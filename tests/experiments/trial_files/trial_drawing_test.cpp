@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "sim/structured_light/depth_frame.h"
+#include "sim/structured_light/missing_return.h"
 
 namespace fenestra {
 namespace {

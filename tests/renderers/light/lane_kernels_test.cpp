@@ -15,7 +15,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kRounding = 1e-6;
+constexpr double kLaneRounding = 1e-6;
 
 Lanes<float> RandomLanes(uint64_t seed, double low, double high) {
   const RandomStream stream(seed);
@@ -62,9 +62,9 @@ TEST(LaneKernels, DirectionsAreThoseOfTheCamerasPose) {
   const Directions found = ToWorld(pose.axes, x, y);
   for (int i = 0; i < kLanes; ++i) {
     const Eigen::Vector3d expected = X_WC.rotation() * Eigen::Vector3d(x[i], y[i], 1.0);
-    EXPECT_LT((Of(found, i) - expected).norm(), kRounding) << i;
+    EXPECT_LT((Of(found, i) - expected).norm(), kLaneRounding) << i;
     // Not normalised: a hit's t is its depth along the optical axis.
-    EXPECT_NEAR(Of(found, i).dot(X_WC.rotation().col(2)), 1.0, kRounding);
+    EXPECT_NEAR(Of(found, i).dot(X_WC.rotation().col(2)), 1.0, kLaneRounding);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(LaneKernels, ABlockOfPixelsIsASquareRowByRow) {
     const uint32_t column = i % kBlockSide;
     const uint32_t row = i / kBlockSide;
     EXPECT_EQ(block.corner.v[i], 1000 + row * 753 + column);
-    const NetPoint seed = scramble.OfPixel(500 + row * 752 + column);
+    const SobolPoint seed = scramble.OfPixel(500 + row * 752 + column);
     EXPECT_EQ(block.seed_x.v[i], seed.x);
     EXPECT_EQ(block.seed_y.v[i], seed.y);
   }
@@ -84,8 +84,8 @@ TEST(LaneKernels, ABlockOfPixelsIsASquareRowByRow) {
 TEST(LaneKernels, SamplesAreTheScrambledPointsOfTheNet) {
   Lanes<uint32_t> net_x, net_y, seed_x, seed_y;
   for (uint32_t i = 0; i < kLanes; ++i) {
-    net_x.v[i] = kNetTable.x[3 * i];
-    net_y.v[i] = kNetTable.y[3 * i];
+    net_x.v[i] = kSobolTable.x[3 * i];
+    net_y.v[i] = kSobolTable.y[3 * i];
     seed_x.v[i] = Hashed(i);
     seed_y.v[i] = Hashed(i + 100);
   }
@@ -118,7 +118,7 @@ TEST(LaneKernels, RaysInAPixelAreInterpolatedBetweenItsCorners) {
       };
       const double expected =
           (1 - t) * ((1 - s) * at(0, 0) + s * at(1, 0)) + t * ((1 - s) * at(0, 1) + s * at(1, 1));
-      EXPECT_NEAR(axis == 0 ? found.x[i] : found.y[i], expected, kRounding) << i;
+      EXPECT_NEAR(axis == 0 ? found.x[i] : found.y[i], expected, kLaneRounding) << i;
     }
   }
 }

@@ -8,7 +8,7 @@
 
 #include "core/io/input_error.h"
 #include "scenes/facade/facade.h"
-#include "scenes/facade/facade_shutters.h"
+#include "scenes/facade/facade_parts.h"
 #include "tests/scenes/facade/facade_examples.h"
 
 namespace fenestra {

@@ -9,8 +9,8 @@
 
 #include "core/io/input_error.h"
 #include "scenes/facade/facade_check.h"
+#include "scenes/facade/facade_parts.h"
 #include "scenes/facade/facade_plan.h"
-#include "scenes/facade/facade_shutters.h"
 #include "tests/scenes/facade/facade_examples.h"
 #include "tests/scenes/mesh_checks.h"
 

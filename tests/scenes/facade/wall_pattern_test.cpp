@@ -40,10 +40,10 @@ std::vector<double> JointsIn(const std::vector<double>& profile, bool dark) {
   return joints;
 }
 
-class WallPatterns : public testing::TestWithParam<WallFinish> {};
+class WallPatterns : public ::testing::TestWithParam<WallFinish> {};
 INSTANTIATE_TEST_SUITE_P(OfAllKinds, WallPatterns,
-                         testing::Values(WallFinish::kPlaster, WallFinish::kBrick,
-                                         WallFinish::kConcrete, WallFinish::kCladding),
+                         ::testing::Values(WallFinish::kPlaster, WallFinish::kBrick,
+                                           WallFinish::kConcrete, WallFinish::kCladding),
                          [](const auto& finish) {
                            return WallFinishNames()[static_cast<size_t>(finish.param)];
                          });

@@ -125,12 +125,12 @@ TEST(RollingShutterTest, AMovingRigSeesUprightBordersSlanted) {
 TEST(RollingShutterTest, DotsOfAMovingRigAreFoundAllTheSame) {
   // The projector moves with the camera: only the surface behind the dots changes.
   StructuredLightOptions options;
-  options.depth_model = DepthModel::kSpeckle;
+  options.depth_model = DepthModel::kMatched;
   options.motion.velocity_B = {1.0, 0.5, 0.0};
   options.motion.angular_velocity_B = {0.0, 0.5, 0.3};
   const StructuredLightSensor sensor(options);
   const RayCaster caster(PlateBeforeWall());
-  const DepthFrame frame =
+  const ExplainedDepth frame =
       sensor.ObserveDepth(caster, {}, RigPose({.distance_m = 2.5}, Pose()), RandomStream(1));
   const cv::Mat1w plate = frame.depth.raw(cv::Rect(160, 60, 100, 120));
   EXPECT_GT(cv::countNonZero(plate), 11900);
@@ -147,7 +147,7 @@ TEST(RollingShutterTest, AveragedFramesOfAMovingRigLagBehind) {
     PaperTargetOptions blank;
     blank.with_target = false;
     const RayCaster caster(MakePaperTarget(blank));
-    const DepthFrame frame = StructuredLightSensor(options).ObserveDepth(
+    const ExplainedDepth frame = StructuredLightSensor(options).ObserveDepth(
         caster, {}, RigPose({.distance_m = 2.0}, Pose()), RandomStream(1));
     const cv::Mat1w middle = frame.depth.raw(cv::Rect(80, 60, 160, 120));
     return cv::mean(middle, middle != 0)[0];

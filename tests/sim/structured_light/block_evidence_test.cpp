@@ -12,12 +12,12 @@ namespace {
 constexpr double kMean = 0.2;
 constexpr double kSpread_px = 0.53;
 
-WindowLight Even(cv::Size size, float dots, float ambient, float disparity) {
+BlockLight Even(cv::Size size, float dots, float ambient, float disparity) {
   return {cv::Mat1f(size, dots), cv::Mat1f(size, ambient), cv::Mat1f(size, disparity)};
 }
 
-WindowLight Random(cv::Size size) {
-  WindowLight light = Even(size, 0.0f, 0.0f, 0.0f);
+BlockLight Random(cv::Size size) {
+  BlockLight light = Even(size, 0.0f, 0.0f, 0.0f);
   const RandomStream stream(1);
   for (int i = 0; i < size.area(); ++i) {
     const auto index = static_cast<uint64_t>(3 * i);
@@ -34,8 +34,8 @@ double Covered(double side_px, int at) {
 }
 
 TEST(BlockEvidence, OfEvenLightIsThatOfAPixel) {
-  const WindowGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
-  const WindowEvidence block = gatherer.At(Even({40, 30}, 50.0f, 10.0f, 31.0f), {20, 15}, 31.0f);
+  const BlockGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
+  const BlockEvidence block = gatherer.At(Even({40, 30}, 50.0f, 10.0f, 31.0f), {20, 15}, 31.0f);
   EXPECT_FLOAT_EQ(block.dots, 50.0f);
   EXPECT_FLOAT_EQ(block.dots2, 2500.0f);
   EXPECT_FLOAT_EQ(block.ambient, 10.0f);
@@ -51,8 +51,8 @@ TEST(BlockEvidence, OfEvenLightIsThatOfAPixel) {
 TEST(BlockEvidence, IsTheWeightedMeanOverTheBlock) {
   const double width_px = 6.3;
   const double height_px = 4.8;
-  const WindowLight light = Random({40, 30});
-  const WindowGatherer gatherer(width_px, height_px, kMean, kSpread_px);
+  const BlockLight light = Random({40, 30});
+  const BlockGatherer gatherer(width_px, height_px, kMean, kSpread_px);
   EXPECT_EQ(gatherer.reach_u(), 3);
   EXPECT_EQ(gatherer.reach_v(), 2);
   const cv::Point pixel(17, 11);
@@ -77,7 +77,7 @@ TEST(BlockEvidence, IsTheWeightedMeanOverTheBlock) {
       disparity += weight * e * light.disparity_px(at);
     }
   }
-  const WindowEvidence block = gatherer.At(light, pixel, static_cast<float>(d));
+  const BlockEvidence block = gatherer.At(light, pixel, static_cast<float>(d));
   constexpr double kRounding = 1e-5;
   EXPECT_NEAR(block.dots, dots, kRounding * dots);
   EXPECT_NEAR(block.dots2, dots2, kRounding * dots2);
@@ -89,14 +89,14 @@ TEST(BlockEvidence, IsTheWeightedMeanOverTheBlock) {
 }
 
 TEST(BlockEvidence, ARowIsItsBlocksOneByOne) {
-  const WindowLight light = Random({40, 30});
-  const WindowGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
-  const std::vector<WindowEvidence> row = gatherer.Row(light, 12);
+  const BlockLight light = Random({40, 30});
+  const BlockGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
+  const std::vector<BlockEvidence> row = gatherer.Row(light, 12);
   ASSERT_EQ(row.size(), 40u - 8u);
   for (int i = 0; i < static_cast<int>(row.size()); ++i) {
     const cv::Point pixel(gatherer.reach_u() + i, 12);
-    const WindowEvidence alone = gatherer.At(light, pixel, light.disparity_px(pixel));
-    const WindowEvidence& among = row[static_cast<size_t>(i)];
+    const BlockEvidence alone = gatherer.At(light, pixel, light.disparity_px(pixel));
+    const BlockEvidence& among = row[static_cast<size_t>(i)];
     EXPECT_FLOAT_EQ(among.evidence, alone.evidence) << i;
     EXPECT_FLOAT_EQ(among.dots2, alone.dots2) << i;
     EXPECT_FLOAT_EQ(among.smooth2, alone.smooth2) << i;
@@ -106,8 +106,8 @@ TEST(BlockEvidence, ARowIsItsBlocksOneByOne) {
 }
 
 TEST(BlockEvidence, RowsOfBlocksThatLeaveTheImageHaveNone) {
-  const WindowGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
-  const WindowLight light = Even({40, 30}, 50.0f, 10.0f, 31.0f);
+  const BlockGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
+  const BlockLight light = Even({40, 30}, 50.0f, 10.0f, 31.0f);
   EXPECT_TRUE(gatherer.Row(light, 2).empty());
   EXPECT_FALSE(gatherer.Row(light, 3).empty());
   EXPECT_FALSE(gatherer.Row(light, 26).empty());
@@ -118,26 +118,65 @@ TEST(BlockEvidence, RowsOfBlocksThatLeaveTheImageHaveNone) {
 // Where something nearer covers the columns from +2 on, six of nine show what is behind it, and the
 // evidence for that is centred to the left.
 TEST(BlockEvidence, IsCentredOnWhatIsAtItsDisparity) {
-  WindowLight light = Even({40, 30}, 50.0f, 10.0f, 31.0f);
+  BlockLight light = Even({40, 30}, 50.0f, 10.0f, 31.0f);
   light.disparity_px.colRange(22, 40) = 45.0f;
-  const WindowGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
-  const WindowEvidence behind = gatherer.At(light, {20, 15}, 31.0f);
+  const BlockGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
+  const BlockEvidence behind = gatherer.At(light, {20, 15}, 31.0f);
   EXPECT_NEAR(behind.evidence, 50.0f * 6.0f / 9.0f, 1e-3f);
   EXPECT_NEAR(behind.moment / behind.evidence, -1.5f, 1e-3f);  // Columns -4 to 1.
   EXPECT_NEAR(behind.disparity / behind.evidence, 31.0f, 1e-3f);
-  const WindowEvidence before = gatherer.At(light, {20, 15}, 45.0f);
+  const BlockEvidence before = gatherer.At(light, {20, 15}, 45.0f);
   EXPECT_NEAR(before.evidence, 50.0f * 3.0f / 9.0f, 1e-3f);
   EXPECT_NEAR(before.moment / before.evidence, 3.0f, 1e-3f);
 }
 
 TEST(BlockEvidence, NothingIsNoEvidence) {
-  const WindowGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
-  const WindowLight nothing = Even({40, 30}, 0.0f, 10.0f, WindowLight::kNoDisparity);
-  const WindowEvidence block = gatherer.At(nothing, {20, 15}, 31.0f);
+  const BlockGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
+  const BlockLight nothing = Even({40, 30}, 0.0f, 10.0f, BlockLight::kNoDisparity);
+  const BlockEvidence block = gatherer.At(nothing, {20, 15}, 31.0f);
   EXPECT_EQ(block.evidence, 0.0f);
   EXPECT_EQ(block.moment, 0.0f);
   EXPECT_EQ(block.strongest, 0.0f);
   EXPECT_FLOAT_EQ(block.smooth2, 100.0f);
+}
+
+TEST(ChanceMatchTest, ItsMedianIsThatOfTheGreatestOfSoManyNumbers) {
+  // Φ(x)^N = 1/2 at ν = 0.
+  for (const double places : {1.0, 10.0, 132.0}) {
+    const double best = static_cast<double>(ChanceMatch{0.2, places}.Best(-1.0f, 0.0f));
+    EXPECT_NEAR(std::pow(NormalShare(best / 0.2), places), 0.5, 1e-5) << places;
+  }
+}
+
+TEST(ChanceMatchTest, ExceedsALevelAsOftenAsTheGreatestDoes) {
+  const ChanceMatch chance{0.11, 50.0};
+  const RandomStream stream(3);
+  constexpr int kDraws = 20000;
+  int above = 0;
+  for (uint64_t i = 0; i < kDraws; ++i) {
+    const float best = chance.Best(0.3f, static_cast<float>(stream.Normal(i)));
+    if (best > 0.3f) ++above;
+  }
+  const double expected = 1.0 - std::pow(NormalShare(0.3 / 0.11), 50.0);
+  // Five standard deviations of a binomial share: false alarm 6e-7.
+  EXPECT_NEAR(above / static_cast<double>(kDraws), expected,
+              5.0 * std::sqrt(expected * (1.0 - expected) / kDraws));
+}
+
+TEST(ChanceMatchTest, OnlyWhatIsEnoughIsDrawn) {
+  const ChanceMatch chance{0.11, 130.0};
+  for (float nu = -5.0f; nu < 5.0f; nu += 0.01f) {
+    const float best = chance.Best(-1.0f, nu);
+    for (const float enough : {0.2f, 0.4f, 0.6f}) {
+      EXPECT_EQ(chance.Best(enough, nu), best > enough ? best : -1.0f) << nu << ", " << enough;
+    }
+  }
+}
+
+TEST(ChanceMatchTest, SumsOfNarrowAndWideGaussiansAreKnown) {
+  EXPECT_DOUBLE_EQ(SumOfGaussian(1e-3), 1.0);
+  // Wide ones approach their integral, π w.
+  EXPECT_NEAR(SumOfGaussian(4.0), 3.14159265 * 4.0, 1e-3);
 }
 
 }  // namespace

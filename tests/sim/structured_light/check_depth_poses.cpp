@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
   const auto seed = static_cast<uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1);
   int64_t wrong = 0;
   for (const auto& [name, model] :
-       {std::pair{"parametric", DepthModel::kParametric}, {"speckle", DepthModel::kSpeckle}}) {
+       {std::pair{"parametric", DepthModel::kParametric}, {"speckle", DepthModel::kMatched}}) {
     const int64_t count = testing::DepthPixelsWhereNothingIs(model, poses, seed);
     fmt::print("{}: {} wrong pixels in {} poses\n", name, count, poses);
     wrong += count;

@@ -30,7 +30,7 @@ int64_t DepthPixelsWhereNothingIs(DepthModel model, int poses, uint64_t seed) {
     const Pose X_WB(
         RotationFromVector({uniform(4, -3.0, 3.0), uniform(5, -3.0, 3.0), uniform(6, -3.0, 3.0)}),
         p_WB);
-    const DepthFrame frame = sensor.ObserveDepth(caster, lighting, X_WB, stream);
+    const ExplainedDepth frame = sensor.ObserveDepth(caster, lighting, X_WB, stream);
     const cv::Mat1f truth_m = caster.CastAovs(rays, X_WB, lighting, {}).depth_m;
     for (int v = 0; v < frame.depth.raw.rows; ++v) {
       for (int u = 0; u < frame.depth.raw.cols; ++u) {

@@ -18,11 +18,11 @@ namespace {
 
 StructuredLightOptions Speckle() {
   StructuredLightOptions options;
-  options.depth_model = DepthModel::kSpeckle;
+  options.depth_model = DepthModel::kMatched;
   return options;
 }
 
-Scene WhiteWall() {
+Scene PlainWall() {
   PaperTargetOptions options;
   options.with_target = false;
   return MakePaperTarget(options);
@@ -34,22 +34,23 @@ Lighting Dark() {
   return lighting;
 }
 
-DepthFrame Seen(const StructuredLightOptions& options, const Scene& scene,
-                const Viewpoint& viewpoint, const Lighting& lighting = Dark(), uint64_t seed = 1) {
+ExplainedDepth SeenByMatching(const StructuredLightOptions& options, const Scene& scene,
+                              const Viewpoint& viewpoint, const Lighting& lighting = Dark(),
+                              uint64_t seed = 1) {
   const StructuredLightSensor sensor(options);
   const RayCaster caster(scene);
   return sensor.ObserveDepth(caster, lighting, RigPose(viewpoint, Pose()), RandomStream(seed));
 }
 
 // Share of pixels with a return, of those in the middle half of the image.
-double ValidShare(const DepthFrame& frame) {
+double ValidShare(const ExplainedDepth& frame) {
   const cv::Size size = frame.depth.raw.size();
   const cv::Rect middle(size.width / 4, size.height / 4, size.width / 2, size.height / 2);
   return cv::countNonZero(frame.depth.raw(middle)) / static_cast<double>(middle.area());
 }
 
 // RMS of depth around the plane that fits the image's middle best [m].
-double PlaneResidual(const DepthFrame& frame) {
+double PlaneResidual(const ExplainedDepth& frame) {
   const int width = frame.depth.raw.cols;
   const int height = frame.depth.raw.rows;
   std::vector<Eigen::Vector3d> rows;
@@ -76,9 +77,9 @@ double PlaneResidual(const DepthFrame& frame) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-TEST(SpeckleDepthTest, AWallIsWhereItStands) {
+TEST(MatchedDepthTest, AWallIsWhereItStands) {
   for (const double z_m : {0.9, 1.5, 2.5, 3.5}) {
-    const DepthFrame frame = Seen(Speckle(), WhiteWall(), {.distance_m = z_m});
+    const ExplainedDepth frame = SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m});
     EXPECT_GT(ValidShare(frame), 0.99) << z_m;
     const cv::Rect middle(140, 100, 40, 40);
     const double mean_m = cv::mean(frame.depth.raw(middle))[0] * frame.depth.unit_m;
@@ -87,22 +88,24 @@ TEST(SpeckleDepthTest, AWallIsWhereItStands) {
   }
 }
 
-TEST(SpeckleDepthTest, ResidualsOfAWallFollowThePublishedCurve) {
+TEST(MatchedDepthTest, ResidualsOfAWallFollowThePublishedCurve) {
   // Khoshelham & Elberink 2012: 1.425e-3 z² m, noise, fixed pattern and quantisation together.
   // Nothing here was fitted to it.
   for (const double z_m : {1.0, 2.0, 3.0}) {
-    const DepthFrame frame = Seen(Speckle(), WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.03});
+    const ExplainedDepth frame =
+        SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m, .azimuth_rad = 0.03});
     const double residual = PlaneResidual(frame);
     EXPECT_NEAR(residual / (1.425e-3 * z_m * z_m), 1.0, 0.35) << z_m;
     RecordProperty("residual_mm_at_" + std::to_string(z_m), std::to_string(1e3 * residual));
   }
 }
 
-TEST(SpeckleDepthTest, DepthsComeInStepsOfTheDisparity) {
+TEST(MatchedDepthTest, DepthsComeInStepsOfTheDisparity) {
   for (const double step_px : {0.125, 0.0625}) {  // OpenNI and Microsoft SDK.
     StructuredLightOptions options = Speckle();
     options.disparity_step_px = step_px;
-    const DepthFrame frame = Seen(options, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.4});
+    const ExplainedDepth frame =
+        SeenByMatching(options, PlainWall(), {.distance_m = 2.0, .azimuth_rad = 0.4});
     std::set<int> steps;
     for (const uint16_t raw : frame.depth.raw) {
       if (raw == 0) continue;
@@ -117,11 +120,11 @@ TEST(SpeckleDepthTest, DepthsComeInStepsOfTheDisparity) {
   }
 }
 
-TEST(SpeckleDepthTest, NoiseDiffersFromFrameToFrameAndThePatternStays) {
+TEST(MatchedDepthTest, NoiseDiffersFromFrameToFrameAndThePatternStays) {
   StructuredLightOptions options = Speckle();
   options.disparity_step_px = 0.0;
   const StructuredLightSensor sensor(options);
-  const RayCaster caster(WhiteWall());
+  const RayCaster caster(PlainWall());
   const Pose X_WB = RigPose({.distance_m = 1.5}, Pose());
   const auto residual = [&](int frames) {
     StructuredLightOptions averaging = options;
@@ -155,15 +158,15 @@ Holes HolesAroundAPlate(StructuredLightOptions options, double zo_m, double zb_m
   options.depth_focal_px *= 2.0;
   Holes holes;
   for (int i = 0; i < kPlates; ++i) {
-    Scene scene = WhiteWall();
+    Scene scene = PlainWall();
     const auto h = static_cast<float>(zo_m * (60.0 + 13.37 * i) / options.depth_focal_px);
     const auto z = static_cast<float>(zb_m - zo_m);
     scene.meshes.push_back({.name = "plate",
                             .positions_W = {{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}},
                             .triangles = {{0, 1, 2}, {0, 2, 3}},
                             .material = scene.meshes.front().material});
-    const DepthFrame frame =
-        Seen(options, scene, {.distance_m = zb_m}, Dark(), static_cast<uint64_t>(i));
+    const ExplainedDepth frame =
+        SeenByMatching(options, scene, {.distance_m = zb_m}, Dark(), static_cast<uint64_t>(i));
     for (int v = 190; v < 190 + kRows; ++v) {
       for (int u = 20; u < 620; ++u) {
         if (frame.depth.raw(v, u) != 0) continue;
@@ -178,46 +181,46 @@ double ShadowWidth(double zo_m, double zb_m) {
   return 2.0 * 285.63 * 0.075 * (1.0 / zo_m - 1.0 / zb_m);
 }
 
-TEST(SpeckleDepthTest, AShadowIsLeftOfTheForegroundAndAsWideAsGeometrySays) {
-  // From 4 to 33 px. In one picture the width has a standard deviation of 0.3 px, since windows of
+TEST(MatchedDepthTest, AShadowIsLeftOfTheForegroundAndAsWideAsGeometrySays) {
+  // From 4 to 33 px. In one picture the width has a standard deviation of 0.3 px, since blocks of
   // 9 rows share their dots: 0.12 px in the mean of six.
   for (const auto& [zo_m, zb_m] :
        {std::pair{1.7, 2.0}, {1.5, 2.0}, {1.2, 2.0}, {2.0, 3.0}, {1.5, 3.0}, {0.9, 3.0}}) {
     const Holes holes = HolesAroundAPlate(Speckle(), zo_m, zb_m);
     EXPECT_NEAR(holes.left_px, ShadowWidth(zo_m, zb_m), 0.5) << zo_m << " before " << zb_m;
-    // Where windows hold as much of the wall as of the plate, neither leads.
+    // Where blocks hold as much of the wall as of the plate, neither leads.
     EXPECT_LT(holes.right_px, 4.5);
   }
 }
 
-TEST(SpeckleDepthTest, WithoutAskingForDotsAllAroundHolesAreTooNarrow) {
+TEST(MatchedDepthTest, WithoutAskingForDotsAllAroundHolesAreTooNarrow) {
   StructuredLightOptions options = Speckle();
   options.matching.most_off_centre = 0.5;
   EXPECT_LT(HolesAroundAPlate(options, 1.5, 3.0).left_px, ShadowWidth(1.5, 3.0) - 1.0);
 }
 
-TEST(SpeckleDepthTest, BlackPaintIsLostWithDistanceUnlessItIsBrightInTheInfraRed) {
+TEST(MatchedDepthTest, BlackPaintIsLostWithDistanceUnlessItIsBrightInTheInfraRed) {
   const auto share = [](double reflectance_830nm, double z_m) {
-    Scene scene = WhiteWall();
+    Scene scene = PlainWall();
     for (Material& material : scene.materials) {
       material.reflectance_830nm = static_cast<float>(reflectance_830nm);
     }
-    return ValidShare(Seen(Speckle(), scene, {.distance_m = z_m}));
+    return ValidShare(SeenByMatching(Speckle(), scene, {.distance_m = z_m}));
   };
   EXPECT_GT(share(0.05, 0.9), 0.9);
   EXPECT_LT(share(0.05, 1.7), 0.1);
   EXPECT_GT(share(0.40, 2.5), 0.9);
 }
 
-TEST(SpeckleDepthTest, ABlackFrameDropsOutUnlessItIsBrightInTheInfraRed) {
-  // The frame of the paper's target, without the pixels whose windows reach beyond it.
+TEST(MatchedDepthTest, ABlackFrameDropsOutUnlessItIsBrightInTheInfraRed) {
+  // The frame of the paper's target, without the pixels whose blocks reach beyond it.
   const auto share = [](double reflectance_830nm, double z_m) {
     PaperTargetOptions target;
     target.frame_reflectance_830nm = reflectance_830nm;
     const RayCaster caster(MakePaperTarget(target));
     const StructuredLightSensor sensor(Speckle());
     const Pose X_WB = RigPose({.distance_m = z_m}, Pose());
-    const DepthFrame frame = sensor.ObserveDepth(caster, Dark(), X_WB, RandomStream(1));
+    const ExplainedDepth frame = sensor.ObserveDepth(caster, Dark(), X_WB, RandomStream(1));
     cv::Mat1b is_frame = sensor.PixelTruth(caster, Dark(), X_WB).aovs.reflectance_830nm ==
                          static_cast<float>(reflectance_830nm);
     cv::erode(is_frame, is_frame, cv::Mat1b::ones(5, 5));
@@ -230,13 +233,13 @@ TEST(SpeckleDepthTest, ABlackFrameDropsOutUnlessItIsBrightInTheInfraRed) {
   EXPECT_GT(share(0.40, 1.8), 0.95);
 }
 
-TEST(SpeckleDepthTest, GlassLetsThePatternThroughToTheRoom) {
+TEST(MatchedDepthTest, GlassLetsThePatternThroughToTheRoom) {
   FacadeOptions facade;
   facade.room.depth_m = 1.0;
   facade.room.paint.reflectance_830nm = 0.8;
   const auto middle_mm = [&](bool glass) {
     facade.window.glass = glass;
-    const DepthFrame frame = Seen(Speckle(), MakeFacade(facade), {.distance_m = 1.5});
+    const ExplainedDepth frame = SeenByMatching(Speckle(), MakeFacade(facade), {.distance_m = 1.5});
     const cv::Mat1w middle = frame.depth.raw(cv::Rect(150, 110, 20, 20));
     EXPECT_GT(cv::countNonZero(middle), 380) << glass;
     return cv::mean(middle, middle != 0)[0];
@@ -246,19 +249,19 @@ TEST(SpeckleDepthTest, GlassLetsThePatternThroughToTheRoom) {
   EXPECT_GT(middle_mm(true), 2500.0);
 }
 
-TEST(SpeckleDepthTest, AmbientLightDrownsTheDots) {
+TEST(MatchedDepthTest, AmbientLightDrownsTheDots) {
   const auto share = [](double lux) {
     Lighting lighting;
     lighting.sky.illuminance_lx = lux;
-    return ValidShare(Seen(Speckle(), WhiteWall(), {.distance_m = 2.0}, lighting));
+    return ValidShare(SeenByMatching(Speckle(), PlainWall(), {.distance_m = 2.0}, lighting));
   };
   EXPECT_GT(share(100.0), 0.95);
   EXPECT_LT(share(50000.0), 0.05);
 }
 
-TEST(SpeckleDepthTest, NothingIsSeenOutsideTheRange) {
+TEST(MatchedDepthTest, NothingIsSeenOutsideTheRange) {
   for (const double z_m : {0.3, 0.7, 4.3, 8.0}) {
-    const DepthFrame frame = Seen(Speckle(), WhiteWall(), {.distance_m = z_m});
+    const ExplainedDepth frame = SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m});
     for (const uint16_t raw : frame.depth.raw) {
       if (raw == 0) continue;
       EXPECT_GE(raw, 800);
@@ -268,18 +271,18 @@ TEST(SpeckleDepthTest, NothingIsSeenOutsideTheRange) {
   }
   StructuredLightOptions near = Speckle();
   near.near_mode = true;
-  EXPECT_GT(ValidShare(Seen(near, WhiteWall(), {.distance_m = 0.5})), 0.95);
+  EXPECT_GT(ValidShare(SeenByMatching(near, PlainWall(), {.distance_m = 0.5})), 0.95);
 }
 
-TEST(SpeckleDepthTest, TheParametricModelIsLikeIt) {
+TEST(MatchedDepthTest, TheParametricModelIsLikeIt) {
   const auto compare = [](double reflectance_830nm, double z_m) {
-    Scene scene = WhiteWall();
+    Scene scene = PlainWall();
     for (Material& material : scene.materials) {
       material.reflectance_830nm = static_cast<float>(reflectance_830nm);
     }
     const Viewpoint viewpoint{.distance_m = z_m, .azimuth_rad = 0.02};
-    const DepthFrame speckle = Seen(Speckle(), scene, viewpoint);
-    const DepthFrame parametric = Seen({}, scene, viewpoint);
+    const ExplainedDepth speckle = SeenByMatching(Speckle(), scene, viewpoint);
+    const ExplainedDepth parametric = SeenByMatching({}, scene, viewpoint);
     EXPECT_NEAR(ValidShare(parametric), ValidShare(speckle), 0.05)
         << reflectance_830nm << " at " << z_m;
     if (ValidShare(speckle) < 0.95) return;
@@ -291,8 +294,8 @@ TEST(SpeckleDepthTest, TheParametricModelIsLikeIt) {
   for (const double z_m : {0.9, 1.4, 2.0, 3.0}) compare(0.05, z_m);
 }
 
-TEST(SpeckleDepthTest, NoPoseGivesDepthWhereNothingIs) {
-  EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kSpeckle, 1000, 5), 0);
+TEST(MatchedDepthTest, NoPoseGivesDepthWhereNothingIs) {
+  EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kMatched, 1000, 5), 0);
   EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kParametric, 1000, 6), 0);
 }
 

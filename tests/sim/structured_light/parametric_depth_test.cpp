@@ -10,55 +10,34 @@
 #include "scenes/targets/paper_target.h"
 #include "sim/structured_light/structured_light_sensor.h"
 #include "sim/truth/viewpoint.h"
+#include "tests/sim/structured_light/wall_scenes.h"
 
 namespace fenestra {
 namespace {
 
+using testing::BoxBeforeWall;
+using testing::Noiseless;
+using testing::WhiteWall;
+
 constexpr double kFocalTimesBaseline = 0.075 * 285.63 * 2.0;  // [px m] at 640 x 480
 
-Scene WhiteWall() {
-  PaperTargetOptions options;
-  options.with_target = false;
-  return MakePaperTarget(options);
-}
-
-// A box of the given half width whose front face stands `stand_off_m` before a large wall.
-Scene BoxBeforeWall(double half_width_m, double stand_off_m) {
-  Scene scene = WhiteWall();
-  const float h = static_cast<float>(half_width_m);
-  const float z = static_cast<float>(stand_off_m);
-  scene.meshes.push_back({.name = "plate",
-                          .positions_W = {{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}},
-                          .triangles = {{0, 1, 2}, {0, 2, 3}},
-                          .material = scene.meshes.front().material});
-  return scene;
-}
-
-DepthFrame Seen(const StructuredLightOptions& options, const Scene& scene,
-                const Viewpoint& viewpoint, const Lighting& lighting = {}, uint64_t seed = 1) {
+ExplainedDepth Seen(const StructuredLightOptions& options, const Scene& scene,
+                    const Viewpoint& viewpoint, const Lighting& lighting = {}, uint64_t seed = 1) {
   const StructuredLightSensor sensor(options);
   const RayCaster caster(scene);
   return sensor.ObserveDepth(caster, lighting, RigPose(viewpoint, Pose()), RandomStream(seed));
 }
 
-StructuredLightOptions Noiseless() {
-  StructuredLightOptions options;
-  options.parametric.fixed_disparity_noise_px = 0.0;
-  options.parametric.temporal_disparity_noise_px = 0.0;
-  options.parametric.lateral_noise_px = 0.0;
-  return options;
-}
-
 TEST(ParametricDepthTest, AWallsDepthIsRightToHalfAStep) {
   for (const double z_m : {1.0, 1.7, 2.9, 3.8}) {
-    const DepthFrame frame = Seen(Noiseless(), WhiteWall(), {.distance_m = z_m});
+    const ExplainedDepth frame = Seen(Noiseless(), WhiteWall(), {.distance_m = z_m});
     const double step_m = 0.125 * z_m * z_m / kFocalTimesBaseline;
     EXPECT_NEAR(frame.depth.raw(120, 160) * frame.depth.unit_m, z_m, 0.5 * step_m * 1.02 + 0.0005);
   }
 }
 
 TEST(ParametricDepthTest, DepthsAreThoseOfWholeDisparitySteps) {
-  const DepthFrame frame = Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.5});
+  const ExplainedDepth frame = Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.5});
   std::set<uint16_t> values;
   for (const uint16_t raw : frame.depth.raw) {
     if (raw != 0) values.insert(raw);
@@ -81,7 +60,7 @@ TEST(ParametricDepthTest, NoiseOfAWallIsThatOfItsFormula) {
   const ParametricDepthOptions& noise = options.parametric;
   for (const double z_m : {1.5, 2.0, 3.0, 3.6}) {
     // A tilt of one degree runs through many quantisation steps.
-    const DepthFrame frame = Seen({}, WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.0175});
+    const ExplainedDepth frame = Seen({}, WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.0175});
     const CameraModel camera = CameraModel::Pinhole(320, 240, 285.63);
     double sum2 = 0.0;
     int count = 0;
@@ -132,7 +111,7 @@ TEST(ParametricDepthTest, NothingReturnsFromOutsideTheRange) {
 
 TEST(ParametricDepthTest, TheProjectorsShadowIsLeftOfTheForegroundAndAsWideAsGeometrySays) {
   // Plate at 2 m, wall at 3 m: f b (1/2 - 1/3) = 7.14 px at 640, half of it at 320 px.
-  const DepthFrame frame = Seen(Noiseless(), BoxBeforeWall(0.3, 1.0), {.distance_m = 3.0});
+  const ExplainedDepth frame = Seen(Noiseless(), BoxBeforeWall(0.3, 1.0), {.distance_m = 3.0});
   int first = -1;
   int last = -1;
   for (int u = 0; u < 320; ++u) {
@@ -154,7 +133,7 @@ TEST(ParametricDepthTest, BlackPaintIsLostBetween1And2Metres) {
     PaperTargetOptions options;
     options.wall_reflectance_830nm = reflectance;
     options.with_target = false;
-    const DepthFrame frame = Seen({}, MakePaperTarget(options), {.distance_m = distance_m});
+    const ExplainedDepth frame = Seen({}, MakePaperTarget(options), {.distance_m = distance_m});
     // Near the axis: towards the corners obliquity and distance cost half of the light.
     return cv::countNonZero(frame.depth.raw(cv::Rect(120, 90, 80, 60))) / 4800.0;
   };
@@ -167,7 +146,7 @@ TEST(ParametricDepthTest, BlackPaintIsLostBetween1And2Metres) {
 TEST(ParametricDepthTest, AmbientLightDrownsTheDots) {
   Lighting sunny;
   sunny.sky.illuminance_lx = 40e3;
-  const DepthFrame drowned = Seen({}, WhiteWall(), {.distance_m = 2.0}, sunny);
+  const ExplainedDepth drowned = Seen({}, WhiteWall(), {.distance_m = 2.0}, sunny);
   EXPECT_EQ(cv::countNonZero(drowned.depth.raw), 0);
   Lighting lamps = sunny;
   lamps.irradiance_830_per_lux = 0.0;  // As many lux from LED lamps do no harm.
@@ -175,7 +154,7 @@ TEST(ParametricDepthTest, AmbientLightDrownsTheDots) {
 }
 
 TEST(ParametricDepthTest, AtAFlatAngleNothingReturns) {
-  const DepthFrame frame =
+  const ExplainedDepth frame =
       Seen({}, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 80.0 * 3.14159265 / 180.0});
   EXPECT_EQ(static_cast<NoReturn>(frame.no_return(120, 160)), NoReturn::kGrazing);
 }
@@ -184,7 +163,7 @@ TEST(ParametricDepthTest, GlassLetsThePatternThroughToTheRoom) {
   FacadeOptions options;
   options.room.depth_m = 1.0;
   options.room.paint.reflectance_830nm = 0.8;
-  const DepthFrame frame = Seen(Noiseless(), MakeFacade(options), {.distance_m = 1.5});
+  const ExplainedDepth frame = Seen(Noiseless(), MakeFacade(options), {.distance_m = 1.5});
   // Centre of the window: the room's back wall at 1.5 + 0.3 + 1.0 m.
   EXPECT_NEAR(frame.depth.raw(120, 160) * 0.001, 2.8, 0.5 * 2.85e-3 * 2.8 * 2.8 + 0.001);
 }

@@ -16,13 +16,13 @@ const cv::Size kSize(160, 60);
 constexpr double kLeast_px = 0.0;
 constexpr double kMost_px = 64.0;
 
-const GatheredPattern& Pattern() {
-  static const GatheredPattern pattern(InfraredOptions{}.dot_sigma_px);
+const SampledPattern& Pattern() {
+  static const SampledPattern pattern(InfraredOptions{}.dot_sigma_px);
   return pattern;
 }
 
-SpeckleMatcher Matcher(const SpeckleMatchingOptions& options = {}) {
-  return SpeckleMatcher(options, {}, Pattern(), kSize, kLeast_px, kMost_px);
+PatternMatcher Matcher(const PatternMatchingOptions& options = {}) {
+  return PatternMatcher(options, {}, Pattern(), kSize, kLeast_px, kMost_px);
 }
 
 struct Exposure {
@@ -62,7 +62,7 @@ struct Agreement {
   double largest_error_px = 0.0;
 };
 
-Agreement Compare(const SpeckleMatches& matches, double disparity_px) {
+Agreement Compare(const PatternMatches& matches, double disparity_px) {
   Agreement agreement;
   for (int v = kInside.y; v < kInside.br().y; ++v) {
     for (int u = kInside.x; u < kInside.br().x; ++u) {
@@ -83,7 +83,7 @@ Agreement Compare(const SpeckleMatches& matches, double disparity_px) {
 }
 
 TEST(PatternMatching, EveryDisparityIsFoundWhereverItIsBetweenSteps) {
-  const SpeckleMatcher matcher = Matcher();
+  const PatternMatcher matcher = Matcher();
   for (const double disparity_px : {3.0, 17.25, 31.4, 31.5, 40.1, 60.9}) {
     const Agreement agreement = Compare(matcher.Match(ImageOf(disparity_px)), disparity_px);
     EXPECT_GT(agreement.matched, 0.99 * kInside.area()) << disparity_px;
@@ -102,11 +102,11 @@ TEST(PatternMatching, OutsideOfTheSearchNothingIsFound) {
 
 // A correlation coefficient does not depend on contrast and level.
 TEST(PatternMatching, BrightnessAndContrastDoNotMatter) {
-  const SpeckleMatcher matcher = Matcher();
+  const PatternMatcher matcher = Matcher();
   const cv::Mat1w image = ImageOf(31.3);
   const cv::Mat1w changed = 2 * image + 50;
-  const SpeckleMatches before = matcher.Match(image);
-  const SpeckleMatches after = matcher.Match(changed);
+  const PatternMatches before = matcher.Match(image);
+  const PatternMatches after = matcher.Match(changed);
   for (int v = kInside.y; v < kInside.br().y; ++v) {
     for (int u = kInside.x; u < kInside.br().x; ++u) {
       EXPECT_NEAR(before.correlation(v, u), after.correlation(v, u), 1e-4f);
@@ -122,7 +122,7 @@ TEST(PatternMatching, NoiseAloneIsNotMatched) {
   // 4.5 of them, and 129 steps are tried, half of them independent: one pixel in 5000.
   EXPECT_LE(agreement.matched, 0.002 * kInside.area());
   // The twin: half the threshold, without a lead, takes noise for the pattern.
-  SpeckleMatchingOptions loose;
+  PatternMatchingOptions loose;
   loose.least_correlation = 0.25;
   loose.least_lead = 0.0;
   loose.most_unexplained = 100.0;
@@ -132,7 +132,7 @@ TEST(PatternMatching, NoiseAloneIsNotMatched) {
 }
 
 TEST(PatternMatching, AFlatImageHasNoMatch) {
-  const SpeckleMatches matches = Matcher().Match(ImageOf(31.3, {.dots_dn = 0.0}));
+  const PatternMatches matches = Matcher().Match(ImageOf(31.3, {.dots_dn = 0.0}));
   EXPECT_EQ(Compare(matches, 31.3).matched, 0);
 }
 
@@ -140,7 +140,7 @@ TEST(PatternMatching, AFlatImageHasNoMatch) {
 TEST(PatternMatching, ASurfaceEndsWhereTheCentresOfItsWindowsLeaveIt) {
   constexpr int kEdge = 80;
   const cv::Mat1w image = Image([](int u) { return u < kEdge ? 20.0 : 40.0; });
-  const SpeckleMatches matches = Matcher().Match(image);
+  const PatternMatches matches = Matcher().Match(image);
   int on_left = 0;
   int on_right = 0;
   int rows = 0;
@@ -157,10 +157,10 @@ TEST(PatternMatching, ASurfaceEndsWhereTheCentresOfItsWindowsLeaveIt) {
 }
 
 TEST(PatternMatching, OnlyTheRowsAskedForAreMatchedAndAlike) {
-  const SpeckleMatcher matcher = Matcher();
+  const PatternMatcher matcher = Matcher();
   const cv::Mat1w image = ImageOf(31.3, {.noise_dn = 10.0});
-  const SpeckleMatches all = matcher.Match(image);
-  const SpeckleMatches some = matcher.Match(image, 4);
+  const PatternMatches all = matcher.Match(image);
+  const PatternMatches some = matcher.Match(image, 4);
   for (int v = 0; v < kSize.height; ++v) {
     for (int u = 0; u < kSize.width; ++u) {
       const float found = some.disparity_px(v, u);
@@ -174,7 +174,7 @@ TEST(PatternMatching, OnlyTheRowsAskedForAreMatchedAndAlike) {
 }
 
 TEST(PatternMatching, WindowsThatLeaveTheImageAreNotMatched) {
-  const SpeckleMatches matches = Matcher().Match(ImageOf(31.3));
+  const PatternMatches matches = Matcher().Match(ImageOf(31.3));
   for (int u = 0; u < kSize.width; ++u) {
     EXPECT_TRUE(std::isnan(matches.disparity_px(3, u)));
     EXPECT_EQ(matches.correlation(3, u), -1.0f);
@@ -187,13 +187,13 @@ TEST(PatternMatching, InNearModeTheSearchReachesTheNearestDistance) {
       .focal_times_baseline = 43.0, .step_px = 0.125, .nearest_m = 0.8, .farthest_m = 4.0};
   const DisparityRange near{
       .focal_times_baseline = 43.0, .step_px = 0.125, .nearest_m = 0.4, .farthest_m = 3.0};
-  const SpeckleMatchingOptions options;
+  const PatternMatchingOptions options;
   EXPECT_EQ(options.SearchEnd(usual), 64.0);
   EXPECT_NEAR(options.SearchEnd(near), 43.0 / 0.4 + 2.0, 1e-12);
 }
 
 TEST(PatternMatching, AllFaultsOfTheOptionsAreReportedAtOnce) {
-  SpeckleMatchingOptions options;
+  PatternMatchingOptions options;
   EXPECT_NO_THROW(Validate(options));
   options.window_width_px = 8;
   options.window_height_px = 17;

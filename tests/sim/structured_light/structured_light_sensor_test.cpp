@@ -7,35 +7,13 @@
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
 #include "sim/truth/viewpoint.h"
+#include "tests/sim/structured_light/wall_scenes.h"
 
 namespace fenestra {
 namespace {
 
-Scene WhiteWall() {
-  PaperTargetOptions options;
-  options.with_target = false;
-  return MakePaperTarget(options);
-}
-
-// A box of the given half width whose front face stands `stand_off_m` before a large wall.
-Scene BoxBeforeWall(double half_width_m, double stand_off_m) {
-  Scene scene = WhiteWall();
-  const float h = static_cast<float>(half_width_m);
-  const float z = static_cast<float>(stand_off_m);
-  scene.meshes.push_back({.name = "plate",
-                          .positions_W = {{-h, -h, z}, {h, -h, z}, {h, h, z}, {-h, h, z}},
-                          .triangles = {{0, 1, 2}, {0, 2, 3}},
-                          .material = scene.meshes.front().material});
-  return scene;
-}
-
-StructuredLightOptions Noiseless() {
-  StructuredLightOptions options;
-  options.parametric.fixed_disparity_noise_px = 0.0;
-  options.parametric.temporal_disparity_noise_px = 0.0;
-  options.parametric.lateral_noise_px = 0.0;
-  return options;
-}
+using testing::BoxBeforeWall;
+using testing::Noiseless;
 
 TEST(StructuredLightSensorTest, TheColourImagesMeanIsWhatAutomaticExposureAimsFor) {
   const StructuredLightSensor sensor{StructuredLightOptions{}};
@@ -55,7 +33,7 @@ TEST(StructuredLightSensorTest, RegisteredDepthLiesWhereTheColourCameraSeesIt) {
   const StructuredLightSensor sensor(options);
   const RayCaster caster(BoxBeforeWall(0.3, 1.0));
   const Pose X_WB = RigPose({.distance_m = 3.0}, Pose());
-  const DepthFrame frame = sensor.ObserveDepth(caster, {}, X_WB, RandomStream(1));
+  const ExplainedDepth frame = sensor.ObserveDepth(caster, {}, X_WB, RandomStream(1));
   const cv::Mat1f truth_m = sensor.PixelTruth(caster, {}, X_WB).aovs.depth_m;
   int wrong = 0;
   int lost = 0;
@@ -96,7 +74,7 @@ TEST(StructuredLightSensorTest, OddPosesNeitherCrashNorInventDepth) {
     const Eigen::Vector3d p_WB(3 * stream.Normal(6 * i + 3), 3 * stream.Normal(6 * i + 4),
                                3 * stream.Normal(6 * i + 5));
     const Pose X_WB(RotationFromVector(2.0 * axis), p_WB);
-    const DepthFrame frame = sensor.ObserveDepth(caster, {}, X_WB, stream.Child("pose", i));
+    const ExplainedDepth frame = sensor.ObserveDepth(caster, {}, X_WB, stream.Child("pose", i));
     const AovImages truth = sensor.PixelTruth(caster, {}, X_WB).aovs;
     for (int v = 0; v < 48; ++v) {
       for (int u = 0; u < 64; ++u) {

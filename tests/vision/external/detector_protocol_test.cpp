@@ -6,7 +6,7 @@
 #include <functional>
 #include <stdexcept>
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 
 namespace fenestra {
 namespace {

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <thread>
 
-#include "core/detection/detector_failure.h"
+#include "core/detection/detector.h"
 #include "core/io/input_error.h"
 
 namespace fenestra {

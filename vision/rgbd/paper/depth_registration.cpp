@@ -37,14 +37,14 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration) {
 DepthRegistration::DepthRegistration(const RgbdCalibration& calibration)
     : calibration_(calibration), working_(WorkingCamera(calibration)) {
   if (calibration.depth != working_ || calibration.X_KD != Pose()) {
-    carrier_.emplace(calibration.depth, calibration.X_KD, working_);
+    reprojection_.emplace(calibration.depth, calibration.X_KD, working_);
   }
   if (calibration.color.has_distortion()) undistortion_ = UndistortionMap(calibration.color);
 }
 
 RegisteredImages DepthRegistration::Register(const RgbdObservation& observation) const {
   CheckFits(observation, calibration_);
-  return {ResampleColor(observation.color), CarryDepth(observation.depth)};
+  return {ResampleColor(observation.color), ReprojectDepth(observation.depth)};
 }
 
 cv::Mat3b DepthRegistration::ResampleColor(const cv::Mat3b& color) const {
@@ -61,8 +61,8 @@ cv::Mat3b DepthRegistration::ResampleColor(const cv::Mat3b& color) const {
   return averaged;
 }
 
-cv::Mat1f DepthRegistration::CarryDepth(const DepthImage& depth) const {
-  if (carrier_) return carrier_->Carry(depth).depth_m;
+cv::Mat1f DepthRegistration::ReprojectDepth(const DepthImage& depth) const {
+  if (reprojection_) return reprojection_->Reproject(depth).depth_m;
   cv::Mat1f depth_m;
   depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
   return depth_m;

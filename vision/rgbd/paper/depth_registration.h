@@ -28,7 +28,7 @@ CameraModel WorkingCamera(const RgbdCalibration& calibration);
 
 /// Registers depth to colour. The colour image is undistorted with bilinear interpolation and
 /// averaged over the area of each working pixel. This is done on the encoded values, since the
-/// threshold of Algorithm 1 refers to encoded values. DepthCarrier reprojects the depth to the
+/// threshold of Algorithm 1 refers to encoded values. DepthReprojection reprojects the depth to the
 /// working camera; with a roll of 0.03 rad, 0.8 % of a Kinect's pixels stay empty. If D already is
 /// the working camera and X_KD the identity, both images are used as they are.
 class DepthRegistration {
@@ -42,11 +42,11 @@ class DepthRegistration {
 
  private:
   cv::Mat3b ResampleColor(const cv::Mat3b& color) const;
-  cv::Mat1f CarryDepth(const DepthImage& depth) const;
+  cv::Mat1f ReprojectDepth(const DepthImage& depth) const;
 
   RgbdCalibration calibration_;
   CameraModel working_;
-  std::optional<DepthCarrier> carrier_;  ///< Absent if depth is registered already.
+  std::optional<DepthReprojection> reprojection_;  ///< Absent if depth is registered already.
   /// Where each undistorted colour pixel lies in the colour image; empty without distortion.
   cv::Mat2f undistortion_;
 };

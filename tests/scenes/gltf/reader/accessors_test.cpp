@@ -27,7 +27,7 @@ constexpr int kUnsignedShort = 5123;
 constexpr int kUnsignedInt = 5125;
 constexpr int kFloat = 5126;
 
-Asset Load(const json& document) {
+Asset LoadDocument(const json& document) {
   const TemporaryFolder folder;
   return LoadAsset(folder.Write("scene.gltf", document.dump()), {});
 }
@@ -48,14 +48,14 @@ json WithAccessor(const std::vector<T>& values, json accessor, json view = json:
 
 template <typename T>
 std::vector<float> FloatsOf(const std::vector<T>& values, int component_type, bool normalized) {
-  return ReadFloats(Load(WithAccessor(values, {{"componentType", component_type},
-                                               {"count", values.size()},
-                                               {"type", "SCALAR"},
-                                               {"normalized", normalized}})),
+  return ReadFloats(LoadDocument(WithAccessor(values, {{"componentType", component_type},
+                                                       {"count", values.size()},
+                                                       {"type", "SCALAR"},
+                                                       {"normalized", normalized}})),
                     2);
 }
 
-std::string RefusalOf(const std::function<void()>& read) {
+std::string RefusalWhile(const std::function<void()>& read) {
   try {
     read();
   } catch (const InputError& error) {
@@ -78,7 +78,7 @@ TEST(Accessors, NormalisedIntegersBecomeFractions) {
 TEST(Accessors, OtherIntegersKeepTheirValue) {
   EXPECT_THAT(FloatsOf<uint8_t>({0, 255}, kUnsignedByte, false), ElementsAre(0.0f, 255.0f));
   EXPECT_THAT(FloatsOf<int16_t>({-32768, 7}, kShort, false), ElementsAre(-32768.0f, 7.0f));
-  const Asset asset = Load(WithAccessor<uint32_t>(
+  const Asset asset = LoadDocument(WithAccessor<uint32_t>(
       {0, 4'000'000'000}, {{"componentType", kUnsignedInt}, {"count", 2}, {"type", "SCALAR"}}));
   EXPECT_THAT(ReadUnsigned(asset, 2), ElementsAre(0u, 4'000'000'000u));
 }
@@ -99,7 +99,7 @@ TEST(Accessors, VectorsAreTakenApartFromAnInterleavedView) {
                                    {"componentType", kFloat},
                                    {"count", 2},
                                    {"type", "VEC3"}});
-  const Asset asset = Load(document);
+  const Asset asset = LoadDocument(document);
   EXPECT_THAT(ReadVec3(asset, 2), ElementsAre(glm::vec3(1, 2, 3), glm::vec3(4, 5, 6)));
   EXPECT_THAT(ReadVec3(asset, 3), ElementsAre(glm::vec3(10, 20, 30), glm::vec3(40, 50, 60)));
   // A colour without alpha is opaque.
@@ -109,15 +109,15 @@ TEST(Accessors, VectorsAreTakenApartFromAnInterleavedView) {
 // Columns of matrices of bytes begin at multiples of four bytes (section 3.6.2.4).
 TEST(Accessors, ColumnsOfSmallMatricesArePadded) {
   const std::vector<uint8_t> bytes = {1, 2, 99, 99, 3, 4, 99, 99};
-  const Asset asset =
-      Load(WithAccessor(bytes, {{"componentType", kUnsignedByte}, {"count", 1}, {"type", "MAT2"}}));
+  const Asset asset = LoadDocument(
+      WithAccessor(bytes, {{"componentType", kUnsignedByte}, {"count", 1}, {"type", "MAT2"}}));
   EXPECT_THAT(ReadFloats(asset, 2), ElementsAre(1.0f, 2.0f, 3.0f, 4.0f));
 }
 
 TEST(Accessors, WithoutAViewAllElementsAreZero) {
   json document = TriangleDocument();
   document["accessors"].push_back({{"componentType", kFloat}, {"count", 2}, {"type", "VEC2"}});
-  EXPECT_THAT(ReadVec2(Load(document), 2), ElementsAre(glm::vec2(0, 0), glm::vec2(0, 0)));
+  EXPECT_THAT(ReadVec2(LoadDocument(document), 2), ElementsAre(glm::vec2(0, 0), glm::vec2(0, 0)));
 }
 
 TEST(Accessors, SparseValuesReplaceThoseUnderneath) {
@@ -130,17 +130,17 @@ TEST(Accessors, SparseValuesReplaceThoseUnderneath) {
       {"count", 2},
       {"indices", {{"bufferView", 3}, {"componentType", kUnsignedInt}}},
       {"values", {{"bufferView", 3}, {"byteOffset", 8}}}};
-  EXPECT_THAT(ReadFloats(Load(document), 2), ElementsAre(10.0f, 2.0f, 12.0f, 3.0f));
+  EXPECT_THAT(ReadFloats(LoadDocument(document), 2), ElementsAre(10.0f, 2.0f, 12.0f, 3.0f));
   // Without a view below, the others are zero.
   document["accessors"][2].erase("bufferView");
-  EXPECT_THAT(ReadFloats(Load(document), 2), ElementsAre(0.0f, 2.0f, 0.0f, 3.0f));
+  EXPECT_THAT(ReadFloats(LoadDocument(document), 2), ElementsAre(0.0f, 2.0f, 0.0f, 3.0f));
 }
 
 TEST(Accessors, WhatIsNotFiniteIsRefusedWithItsElement) {
   json document = WithAccessor<float>({0, 0, 0, 0, std::numeric_limits<float>::infinity(), 0},
                                       {{"componentType", kFloat}, {"count", 2}, {"type", "VEC3"}});
-  const Asset asset = Load(document);
-  EXPECT_THAT(RefusalOf([&] { ReadVec3(asset, 2); }),
+  const Asset asset = LoadDocument(document);
+  EXPECT_THAT(RefusalWhile([&] { ReadVec3(asset, 2); }),
               HasSubstr("/accessors/2: element 1 is not finite"));
 }
 
@@ -148,8 +148,8 @@ TEST(Accessors, ABufferWithoutDataIsRefusedWhenItIsRead) {
   json document =
       WithAccessor<float>({0, 0}, {{"componentType", kFloat}, {"count", 2}, {"type", "SCALAR"}});
   document["buffers"][2].erase("uri");
-  const Asset asset = Load(document);
-  EXPECT_THAT(RefusalOf([&] { ReadFloats(asset, 2); }), HasSubstr("/buffers/2: has no data"));
+  const Asset asset = LoadDocument(document);
+  EXPECT_THAT(RefusalWhile([&] { ReadFloats(asset, 2); }), HasSubstr("/buffers/2: has no data"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr EdgeSegmentSettings kSettings{
+constexpr EdgeSegmentSettings kChainSettings{
     .min_length_px = 12.0,
     .min_darkness = 0.25,
     .most_per_side = 60,
@@ -33,7 +33,7 @@ struct Line {
 };
 
 // Grey values as a blurred step has them; of several lines the bright side is that of any.
-cv::Mat1b Draw(const std::vector<Line>& lines, double dark_dn, double bright_dn) {
+cv::Mat1b DrawEdges(const std::vector<Line>& lines, double dark_dn, double bright_dn) {
   cv::Mat1b image(160, 200);
   for (int v = 0; v < image.rows; ++v) {
     for (int u = 0; u < image.cols; ++u) {
@@ -68,7 +68,7 @@ TEST(EdgeChains, AnEdgeIsListedOnTheSideThatItMayBeWithTheDarkOnItsRight) {
       {{3.0, Side::kRight}, {93.0, Side::kBottom}, {183.0, Side::kLeft}, {273.0, Side::kTop}}};
   for (const auto& [angle_deg, side] : cases) {
     const Line line{angle_deg, 1.3};
-    const EdgeSegments segments = FollowEdges(Draw({line}, 20.0, 150.0), kSettings);
+    const EdgeSegments segments = FollowEdges(DrawEdges({line}, 20.0, 150.0), kChainSettings);
     ASSERT_EQ(Count(segments), 1u) << angle_deg;
     ASSERT_EQ(Of(segments, side).size(), 1u) << angle_deg;
     const EdgeSegment& found = Of(segments, side).front();
@@ -85,7 +85,7 @@ TEST(EdgeChains, EdgesAreFoundToAFractionOfAPixel) {
   for (const double angle_deg : {0.0, 2.0, 11.0, 30.0, 40.0}) {
     for (const double offset_px : {0.0, 0.2, 0.5, 0.7}) {
       const Line line{angle_deg, offset_px};
-      const EdgeSegments segments = FollowEdges(Draw({line}, 20.0, 150.0), kSettings);
+      const EdgeSegments segments = FollowEdges(DrawEdges({line}, 20.0, 150.0), kChainSettings);
       ASSERT_GE(Of(segments, Side::kRight).size(), 1u) << angle_deg;
       const EdgeSegment& found = Of(segments, Side::kRight).front();
       EXPECT_NEAR(line.Distance(found.from), 0.0, 0.06) << angle_deg << ", " << offset_px;
@@ -97,9 +97,9 @@ TEST(EdgeChains, EdgesAreFoundToAFractionOfAPixel) {
 }
 
 TEST(EdgeChains, TransposingThePictureTransposesItsEdges) {
-  const cv::Mat1b image = Draw({{17.0, 0.3}, {130.0, 20.0}}, 20.0, 150.0);
-  const EdgeSegments upright = FollowEdges(image, kSettings);
-  const EdgeSegments lying = FollowEdges(image.t(), kSettings);
+  const cv::Mat1b image = DrawEdges({{17.0, 0.3}, {130.0, 20.0}}, 20.0, 150.0);
+  const EdgeSegments upright = FollowEdges(image, kChainSettings);
+  const EdgeSegments lying = FollowEdges(image.t(), kChainSettings);
   ASSERT_GE(Count(upright), 2u);
   // Mirroring at the diagonal turns a walk clockwise into one counterclockwise.
   const std::array<Side, 4> mirrored = {Side::kLeft, Side::kBottom, Side::kRight, Side::kTop};
@@ -118,7 +118,7 @@ TEST(EdgeChains, AChainIsSplitWhereItBends) {
   // Two upright edges that meet in the image's middle at an angle of 20°: 25 px to either side of
   // the bend, the chord between the ends is far more than 0.8 px off.
   const EdgeSegments segments =
-      FollowEdges(Draw({{10.0, 0.0}, {-10.0, 0.0}}, 20.0, 150.0), kSettings);
+      FollowEdges(DrawEdges({{10.0, 0.0}, {-10.0, 0.0}}, 20.0, 150.0), kChainSettings);
   ASSERT_EQ(Of(segments, Side::kRight).size(), 2u);
   for (const EdgeSegment& found : Of(segments, Side::kRight)) {
     EXPECT_NEAR(found.Length(), 78.0 / std::cos(10.0 * std::numbers::pi / 180.0), 4.0);
@@ -131,25 +131,25 @@ TEST(EdgeChains, AChainIsSplitWhereItBends) {
 
 TEST(EdgeChains, ABendOfLessThanAPixelIsStraight) {
   const EdgeSegments segments =
-      FollowEdges(Draw({{0.5, 0.0}, {-0.5, 0.0}}, 20.0, 150.0), kSettings);
+      FollowEdges(DrawEdges({{0.5, 0.0}, {-0.5, 0.0}}, 20.0, 150.0), kChainSettings);
   EXPECT_EQ(Of(segments, Side::kRight).size(), 1u);
 }
 
 TEST(EdgeChains, WhatIsWeakerThanNoiseIsNoEdge) {
-  EXPECT_EQ(Count(FollowEdges(Draw({{0.0, 0.0}}, 20.0, 24.0), kSettings)), 0u);
-  EXPECT_EQ(Count(FollowEdges(Draw({{0.0, 0.0}}, 20.0, 40.0), kSettings)), 1u);
+  EXPECT_EQ(Count(FollowEdges(DrawEdges({{0.0, 0.0}}, 20.0, 24.0), kChainSettings)), 0u);
+  EXPECT_EQ(Count(FollowEdges(DrawEdges({{0.0, 0.0}}, 20.0, 40.0), kChainSettings)), 1u);
 }
 
 // Twenty grey values part light from dark in the shade and are texture of a sunlit wall.
 TEST(EdgeChains, ContrastIsJudgedByTheLight) {
-  EXPECT_EQ(Count(FollowEdges(Draw({{0.0, 0.0}}, 40.0, 60.0), kSettings)), 1u);
-  EXPECT_EQ(Count(FollowEdges(Draw({{0.0, 0.0}}, 180.0, 200.0), kSettings)), 0u);
+  EXPECT_EQ(Count(FollowEdges(DrawEdges({{0.0, 0.0}}, 40.0, 60.0), kChainSettings)), 1u);
+  EXPECT_EQ(Count(FollowEdges(DrawEdges({{0.0, 0.0}}, 180.0, 200.0), kChainSettings)), 0u);
 }
 
 TEST(EdgeChains, ShortEdgesAreLeftOut) {
   cv::Mat1b image(160, 200, uchar{150});
   image(cv::Rect(60, 70, 80, 8)) = 20;
-  const EdgeSegments segments = FollowEdges(image, kSettings);
+  const EdgeSegments segments = FollowEdges(image, kChainSettings);
   EXPECT_EQ(Of(segments, Side::kTop).size(), 1u);
   EXPECT_EQ(Of(segments, Side::kBottom).size(), 1u);
   EXPECT_TRUE(Of(segments, Side::kLeft).empty());

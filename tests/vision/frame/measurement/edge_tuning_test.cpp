@@ -28,7 +28,7 @@ SideRequest Request() {
 
 // Strips of 8 rows of pixels along a side, whose grey values are those of the model with this
 // tuning. Each strip's edge is at a place of its own between the pixels.
-std::vector<EdgeStrip> Strips(const EdgeTuning& truth, double noise_dn,
+std::vector<EdgeStrip> Strips(const EdgeNuisance& truth, double noise_dn,
                               const RandomStream& stream) {
   const StepModel model(Request(), truth, kNormal);
   std::vector<EdgeStrip> strips;
@@ -51,29 +51,30 @@ std::vector<EdgeStrip> Strips(const EdgeTuning& truth, double noise_dn,
 }
 
 // One round: fits with what is known, then what these fits say.
-Learnt LearnFrom(const std::vector<EdgeStrip>& strips, const EdgeTuning& tuning,
-                 double excess = 1.0) {
-  const StepModel model(Request(), tuning, kNormal);
+NuisanceEstimate EstimateFrom(const std::vector<EdgeStrip>& strips, const EdgeNuisance& nuisance,
+                              double excess = 1.0) {
+  const StepModel model(Request(), nuisance, kNormal);
   std::vector<StepFit> fits;
   for (const EdgeStrip& strip : strips) {
     const auto fit = model.Fit(strip);
     EXPECT_TRUE(fit.has_value());
     fits.push_back(fit.value_or(StepFit{}));
   }
-  return Learn(model, strips, fits, {.excess = excess, .falloff = 0.0}, Request(), tuning);
+  return EstimateNuisance(model, strips, fits, {.excess = excess, .falloff = 0.0}, Request(),
+                          nuisance);
 }
 
-EdgeTuning After(const std::vector<EdgeStrip>& strips, int rounds) {
-  EdgeTuning tuning;
-  for (int i = 0; i < rounds; ++i) tuning = LearnFrom(strips, tuning).tuning;
-  return tuning;
+EdgeNuisance After(const std::vector<EdgeStrip>& strips, int rounds) {
+  EdgeNuisance nuisance;
+  for (int i = 0; i < rounds; ++i) nuisance = EstimateFrom(strips, nuisance).nuisance;
+  return nuisance;
 }
 
-TEST(EdgeTuning, TheBlurThatMadeAPictureIsLearnt) {
+TEST(EdgeNuisance, TheBlurThatMadeAPictureIsEstimated) {
   for (const double blur_px : {0.4, 0.5, 0.8}) {
-    EdgeTuning truth;
+    EdgeNuisance truth;
     truth.shared << blur_px, 0.05, -0.03, 0.0, 0.0;
-    const EdgeTuning learnt = After(Strips(truth, 0.0, RandomStream(1)), 6);
+    const EdgeNuisance learnt = After(Strips(truth, 0.0, RandomStream(1)), 6);
     // Of 2000 pixels those near the edge tell the blur to some thousandths; what was expected of it
     // before, 0.5 px give or take 0.2 px, weighs little beside them.
     EXPECT_NEAR(learnt.blur_px(), blur_px, 0.005) << blur_px;
@@ -83,41 +84,41 @@ TEST(EdgeTuning, TheBlurThatMadeAPictureIsLearnt) {
   }
 }
 
-TEST(EdgeTuning, ASlopeOfTheLightThatPixelsShowIsBelieved) {
-  EdgeTuning truth;
+TEST(EdgeNuisance, ASlopeOfTheLightThatPixelsShowIsBelieved) {
+  EdgeNuisance truth;
   truth.shared << 0.5, 0.0, 0.0, 0.004, 0.0;
-  const EdgeTuning learnt = After(Strips(truth, 0.0, RandomStream(1)), 8);
+  const EdgeNuisance learnt = After(Strips(truth, 0.0, RandomStream(1)), 8);
   EXPECT_NEAR(learnt.slope_outside(), 0.004, 0.0005);
   EXPECT_NEAR(learnt.slope_inside(), 0.0, 0.0005);
 }
 
-TEST(EdgeTuning, VariancesAreThoseOfEitherSide) {
-  EdgeTuning truth;
+TEST(EdgeNuisance, VariancesAreThoseOfEitherSide) {
+  EdgeNuisance truth;
   truth.dark_variance = 1.0;
   truth.bright_variance = 4.0;
-  const EdgeTuning learnt = After(Strips(truth, 1.0, RandomStream(2)), 3);
+  const EdgeNuisance learnt = After(Strips(truth, 1.0, RandomStream(2)), 3);
   // Of some 500 pixels inside and 1000 outside: relative deviations √(2/n), four of them.
   EXPECT_NEAR(learnt.dark_variance, 1.0, 4.0 * std::sqrt(2.0 / 500.0));
   EXPECT_NEAR(learnt.bright_variance, 4.0, 4.0 * 4.0 * std::sqrt(2.0 / 1000.0));
 }
 
-TEST(EdgeTuning, ASideIsEvenUnlessFarPixelsFitWorse) {
-  const EdgeTuning truth;
+TEST(EdgeNuisance, ASideIsEvenUnlessFarPixelsFitWorse) {
+  const EdgeNuisance truth;
   std::vector<EdgeStrip> strips = Strips(truth, 1.0, RandomStream(3));
-  EXPECT_TRUE(LearnFrom(strips, truth).tuning.is_even);
+  EXPECT_TRUE(EstimateFrom(strips, truth).nuisance.is_even);
   for (EdgeStrip& strip : strips) {
     for (StripPixel& pixel : strip.pixels) {
       if (pixel.s_px > kReach_px + 1.0) pixel.grey_dn += 4.0;
     }
   }
-  EXPECT_FALSE(LearnFrom(strips, truth).tuning.is_even);
+  EXPECT_FALSE(EstimateFrom(strips, truth).nuisance.is_even);
 }
 
-TEST(EdgeTuning, WhatIsNotKnownOfTheTuningIsCommonToAllEdges) {
-  const EdgeTuning truth;
+TEST(EdgeNuisance, WhatIsNotKnownOfTheNuisanceIsCommonToAllEdges) {
+  const EdgeNuisance truth;
   const std::vector<EdgeStrip> strips = Strips(truth, 1.0, RandomStream(4));
-  const double usual_px = LearnFrom(strips, truth).common_sigma_px;
-  const double noisy_px = LearnFrom(strips, truth, 9.0).common_sigma_px;
+  const double usual_px = EstimateFrom(strips, truth).common_sigma_px;
+  const double noisy_px = EstimateFrom(strips, truth, 9.0).common_sigma_px;
   EXPECT_GT(usual_px, 0.0);
   // An edge between its two far sides is nearly independent of the blur.
   EXPECT_LT(usual_px, 0.02);
@@ -125,8 +126,8 @@ TEST(EdgeTuning, WhatIsNotKnownOfTheTuningIsCommonToAllEdges) {
   EXPECT_LT(noisy_px, 3.0 * usual_px);
 }
 
-TEST(EdgeTuning, ALearntBlurStaysWhereLensesAre) {
-  EdgeTuning truth;
+TEST(EdgeNuisance, AnEstimatedBlurStaysWhereLensesAre) {
+  EdgeNuisance truth;
   truth.shared[0] = 2.5;
   EXPECT_LE(After(Strips(truth, 0.0, RandomStream(1)), 12).blur_px(), 1.5);
   truth.shared[0] = 0.05;

@@ -12,12 +12,12 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kFocal_px = 570.0;
-constexpr int kEvery = 8;  // Columns and rows that are read.
+constexpr int kPixelStep = 8;  // Columns and rows that are read.
 
 // Windows of one point, so that points are independent.
 const DepthNoise kNoise{.sigma = 0.002,
                         .step = 0.0,
-                        .window_px = kEvery,
+                        .window_px = kPixelStep,
                         .window_points = 1.0,
                         .window_rad = 0.0,
                         .image = {640, 480},
@@ -31,8 +31,8 @@ Vector3d RayOf(const cv::Point& pixel) {
 std::vector<DepthPoint> PointsOn(const Vector3d& m, double noise, const RandomStream& stream) {
   std::vector<DepthPoint> points;
   uint64_t next = 0;
-  for (int v = kEvery / 2; v < 480; v += kEvery) {
-    for (int u = kEvery / 2; u < 640; u += kEvery) {
+  for (int v = kPixelStep / 2; v < 480; v += kPixelStep) {
+    for (int u = kPixelStep / 2; u < 640; u += kPixelStep) {
       const Vector3d ray_D = RayOf({u, v});
       const double inverse_depth = m.dot(ray_D) + noise * stream.Normal(next++);
       points.push_back({.pixel = {u, v},

@@ -94,7 +94,7 @@ std::variant<FramePlanes, Miss> Measure(const Facade& facade,
   return MeasureFramePlanes(points, frame, FirstGuess(Look({})), Depth(), settings);
 }
 
-FramePlanes Found(const std::variant<FramePlanes, Miss>& result) {
+FramePlanes FoundPlanes(const std::variant<FramePlanes, Miss>& result) {
   const Miss* miss = std::get_if<Miss>(&result);
   EXPECT_EQ(miss, nullptr) << miss->reason << ": " << miss->detail;
   return miss == nullptr ? std::get<FramePlanes>(result) : FramePlanes{};
@@ -106,7 +106,7 @@ std::string ReasonOf(const std::variant<FramePlanes, Miss>& result) {
 }
 
 TEST(FramePlanes, OfAPaintedFrameAreTheWalls) {
-  const FramePlanes planes = Found(Measure({}));
+  const FramePlanes planes = FoundPlanes(Measure({}));
   EXPECT_EQ(planes.setback_m, 0.0);
   EXPECT_EQ(planes.setback_sigma_m, 0.0);
   ASSERT_EQ(planes.planes.size(), 2u);
@@ -120,7 +120,7 @@ TEST(FramePlanes, OfAPaintedFrameAreTheWalls) {
 }
 
 TEST(FramePlanes, BlackPaintWithoutReturnsLeavesTheWallAlone) {
-  const FramePlanes planes = Found(Measure({.border_returns = 0.0}));
+  const FramePlanes planes = FoundPlanes(Measure({.border_returns = 0.0}));
   ASSERT_EQ(planes.planes.size(), 1u);
   EXPECT_NEAR(planes.planes[0].m.z(), 0.5, 0.001);
 }
@@ -129,7 +129,7 @@ TEST(FramePlanes, ASetbackThatIsSeenIsBelieved) {
   FramePlaneSettings settings = Settings();
   settings.setback_sigma_m = 0.05;
   const FramePlanes planes =
-      Found(Measure({.border_m = 0.08, .inside_m = 0.5}, settings, Frame(2.08)));
+      FoundPlanes(Measure({.border_m = 0.08, .inside_m = 0.5}, settings, Frame(2.08)));
   EXPECT_NEAR(planes.setback_m, 0.08, 0.003);
   EXPECT_LT(planes.setback_sigma_m, 0.003);
   ASSERT_EQ(planes.planes.size(), 2u);
@@ -141,7 +141,7 @@ TEST(FramePlanes, ASetbackThatIsSeenIsBelieved) {
 TEST(FramePlanes, WithFewReturnsTheirMeanIsTakenWithItsDoubt) {
   FramePlaneSettings settings = Settings();
   settings.setback_sigma_m = 0.05;
-  const FramePlanes planes = Found(
+  const FramePlanes planes = FoundPlanes(
       Measure({.border_m = 0.08, .inside_m = 0.5, .border_returns = 0.45}, settings, Frame(2.08)));
   ASSERT_EQ(planes.planes.size(), 1u);
   EXPECT_NEAR(planes.setback_m, 0.08, 0.005);
@@ -152,7 +152,7 @@ TEST(FramePlanes, WhereNothingReturnsTheFrameIsWhereTheSettingsSay) {
   FramePlaneSettings settings = Settings();
   settings.setback_m = 0.08;
   settings.setback_sigma_m = 0.01;
-  const FramePlanes planes = Found(Measure(
+  const FramePlanes planes = FoundPlanes(Measure(
       {.border_m = 0.08, .border_returns = 0.1, .inside_returns = 0.0}, settings, Frame(2.08)));
   EXPECT_EQ(planes.setback_m, 0.08);
   EXPECT_EQ(planes.setback_sigma_m, 0.01);
@@ -165,9 +165,9 @@ TEST(FramePlanes, ASetbackThatTheFitFindsWidensTheWallsPlane) {
   settings.setback_m = 0.08;
   settings.setback_sigma_m = 0.03;
   const Facade facade{.border_m = 0.08, .border_returns = 0.0, .inside_returns = 0.0};
-  const FramePlanes fixed = Found(Measure(facade, settings, Frame(2.08)));
+  const FramePlanes fixed = FoundPlanes(Measure(facade, settings, Frame(2.08)));
   settings.fits_setback = true;
-  const FramePlanes fitted = Found(Measure(facade, settings, Frame(2.08)));
+  const FramePlanes fitted = FoundPlanes(Measure(facade, settings, Frame(2.08)));
   const auto deviation_m = [](const FramePlanes& planes) {
     const PlaneMeasurement& plane = planes.planes.at(0);
     return std::sqrt(plane.information.inverse()(2, 2)) / plane.m.squaredNorm();

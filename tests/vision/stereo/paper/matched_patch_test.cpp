@@ -7,11 +7,11 @@
 namespace fenestra {
 namespace {
 
-constexpr PatchSettings kSettings{.opening_px = 5,
-                                  .gap_height_px = 21,
-                                  .gap_width_px = 5,
-                                  .min_height_px = 20,
-                                  .disparity_step_px = 2.0};
+constexpr PatchSettings kPatchSettings{.opening_px = 5,
+                                       .gap_height_px = 21,
+                                       .gap_width_px = 5,
+                                       .min_height_px = 20,
+                                       .disparity_step_px = 2.0};
 
 // An image without matches but for these boxes of one disparity each.
 cv::Mat1f Matches(const std::vector<std::pair<cv::Rect, float>>& boxes) {
@@ -21,7 +21,7 @@ cv::Mat1f Matches(const std::vector<std::pair<cv::Rect, float>>& boxes) {
 }
 
 std::vector<MatchedPatch> PatchesIn(const std::vector<std::pair<cv::Rect, float>>& boxes) {
-  return FindPatches(Matches(boxes), kSettings);
+  return FindPatches(Matches(boxes), kPatchSettings);
 }
 
 TEST(MatchedPatch, IsTheBoxThatWasMatched) {
@@ -76,7 +76,7 @@ TEST(MatchedPatch, AStepOfTheDisparityParts) {
   for (int u = 50; u < 110; ++u) {
     slanted.col(u).rowRange(40, 120) = 30.0f + 0.1f * static_cast<float>(u - 50);
   }
-  EXPECT_EQ(FindPatches(slanted, kSettings).size(), 1u);
+  EXPECT_EQ(FindPatches(slanted, kPatchSettings).size(), 1u);
 }
 
 TEST(MatchedPatch, WithoutMatchesThereIsNone) {

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "renderers/tracing/triangle_soup.h"
+
+namespace fenestra {
+
+/// A point from which the hemisphere about n is looked at.
+struct BakePoint {
+  glm::vec3 p_W{0.0f};
+  glm::vec3 n_W{0.0f};
+};
+
+/// A vertex of one surface: the corners of all its triangles there share their view.
+struct SharedCorner {
+  glm::vec3 p_W{0.0f};
+  glm::vec3 n_W{0.0f};
+  glm::vec3 centroid_sum_W{0.0f};  ///< Over the triangles of the surface that meet here,
+  float count = 0.0f;              ///< of which there are this many.
+  uint32_t surface = 0;            ///< See NumberSurfaces.
+  bool is_closed = false;          ///< See Mesh::closed.
+  bool is_smooth = false;          ///< n_W is the vertex's normal instead of the triangles'.
+
+  /// A point on one side, a little inside the surface.
+  BakePoint Side(bool front) const;
+};
+
+/// All of them, and for each triangle the indices of its three.
+struct SharedCorners {
+  std::vector<SharedCorner> corners;
+  std::vector<std::array<size_t, 3>> of_triangle;
+};
+
+SharedCorners FindSharedCorners(const TriangleSoup& soup, const std::vector<uint32_t>& surfaces);
+
+}  // namespace fenestra

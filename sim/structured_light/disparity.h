@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+
+#include "sim/structured_light/dot_pattern.h"
+
+namespace fenestra {
+
+/// Between disparity and depth: z = f b/d, for disparities in pixels of the 640-wide image in which
+/// the sensor matches, and what of it the sensor delivers.
+struct DisparityRange {
+  /// The sensor matches in an image of this width, whatever the width of the depth image [px].
+  static constexpr double kImageWidth = 640.0;
+
+  double focal_times_baseline;  ///< f b [px m].
+  double step_px;               ///< Disparities are multiples of it; 0: any.
+  double nearest_m;
+  double farthest_m;
+
+  /// Ranges of the Microsoft Kinect SDK 1.8: 0.8–4.0 m, in near mode 0.4–3.0 m. focal_px: of a
+  /// depth camera of this width.
+  static DisparityRange Of(double focal_px, int width_px, double baseline_m, double step_px,
+                           bool near_mode);
+
+  bool Contains(double z_m) const { return z_m >= nearest_m && z_m <= farthest_m; }
+  /// Depth of a disparity after quantisation [m]; 0 outside the range.
+  double Depth(double disparity_px) const;
+};
+
+/// Where, between steps of half a pixel, the correlation with the pattern is greatest.
+///
+/// The parabola through the logarithms of three correlations would be exact if the correlation of
+/// two displaced patterns were a Gaussian. It is not: their dots are no larger than a pixel, so
+/// that patterns half a pixel apart are sampled differently, and the vertex is drawn by up to 0.06
+/// px towards whole pixels. The same error of the pattern with itself, known beforehand, is taken
+/// off.
+class SubpixelVertex {
+ public:
+  explicit SubpixelVertex(const SampledPattern& pattern);
+
+  /// Offset [px] of the greatest correlation from a step at which it is `score`, by those half a
+  /// pixel before and after it. Even steps are at whole pixels. Without both neighbours above 0,
+  /// or if they are greater, 0.
+  float Offset(bool is_whole_pixel, float before, float score, float after) const;
+
+ private:
+  /// What the parabola makes of offsets 0, kSpacing, 2 kSpacing … [px].
+  static constexpr int kOffsets = 7;
+  static constexpr float kSpacing = 0.05f;
+  using Curve = std::array<float, kOffsets>;
+
+  Curve at_whole_;
+  Curve at_half_;
+};
+
+}  // namespace fenestra
