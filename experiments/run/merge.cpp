@@ -7,7 +7,6 @@
 #include <map>
 
 #include "core/io/faults.h"
-#include "experiments/run/folder_lock.h"
 #include "experiments/run/result_files.h"
 #include "experiments/run/run_identity.h"
 #include "experiments/run/run_trials.h"

@@ -4,7 +4,7 @@
 
 #include "core/io/private_folder.h"
 #include "experiments/report/report.h"
-#include "experiments/run/folder_size.h"
+#include "experiments/run/result_files.h"
 #include "experiments/run/run_trials.h"
 #include "experiments/run/study_explanation.h"
 #include "experiments/store/store.h"
