@@ -6,8 +6,7 @@
 
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/interrupt.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/progress.h"
 #include "experiments/cli/study_run_arguments.h"
 #include "experiments/fixtures/fixture_order.h"
