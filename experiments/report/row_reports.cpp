@@ -6,7 +6,7 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
-#include "experiments/output/csv_writer.h"
+#include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"
 #include "experiments/report/envelope_report.h"

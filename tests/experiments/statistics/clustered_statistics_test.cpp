@@ -7,6 +7,7 @@
 
 #include "core/random/random_stream.h"
 #include "experiments/statistics/moments.h"
+#include "experiments/statistics/paired.h"
 
 namespace fenestra {
 namespace {

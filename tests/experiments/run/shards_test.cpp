@@ -1,4 +1,4 @@
-#include "experiments/run/shard.h"
+#include "experiments/run/shards.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,5 +30,9 @@ class CsvWriter {
   std::string text_;
   bool line_is_empty_ = true;
 };
+
+/// A point cloud in the binary form of PCL's PCD format, version 0.7: x, y, z as 32-bit floats.
+/// Written here, since PCL's own writer would bring VTK into the program.
+std::string ToPcd(std::span<const Eigen::Vector3f> points);
 
 }  // namespace fenestra

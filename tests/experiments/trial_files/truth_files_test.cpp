@@ -1,4 +1,4 @@
-#include "experiments/trial_files/target_visibility.h"
+#include "experiments/trial_files/truth_files.h"
 
 #include <gtest/gtest.h>
 
