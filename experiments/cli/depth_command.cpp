@@ -5,7 +5,7 @@
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
-#include "experiments/depth_bench/depth_curves.h"
+#include "experiments/depth_curves/depth_curves.h"
 
 namespace fenestra::cli {
 

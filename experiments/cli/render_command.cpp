@@ -11,7 +11,7 @@
 #include "experiments/sequence/sequence_writer.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 #include "experiments/trial_files/scene_views.h"
 #include "experiments/trial_files/trial_files.h"
 #include "vision/detector_registry.h"

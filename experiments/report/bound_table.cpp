@@ -5,7 +5,7 @@
 
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 
 namespace fenestra {
 namespace {

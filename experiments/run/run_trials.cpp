@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "core/system/check.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 
 namespace fenestra {
 namespace {

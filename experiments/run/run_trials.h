@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "experiments/trial/detector_maker.h"
-#include "experiments/trial/trial_bench.h"
+#include "experiments/trial/trial_runner.h"
 
 namespace fenestra {
 

@@ -8,7 +8,7 @@
 #include "experiments/run/run_trials.h"
 #include "experiments/run/study_explanation.h"
 #include "experiments/store/store.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 #include "experiments/trial_files/trial_files.h"
 
 namespace fenestra {

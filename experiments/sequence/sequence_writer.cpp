@@ -7,7 +7,7 @@
 #include "core/io/input_error.h"
 #include "core/io/yaml_reader.h"
 #include "experiments/sequence/surveyed_truth.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 
 namespace fenestra {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "experiments/trial/trial_bench.h"
+#include "experiments/trial/trial_runner.h"
 
 namespace fenestra {
 

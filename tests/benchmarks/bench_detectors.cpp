@@ -8,7 +8,7 @@
 
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 #include "vision/detector_registry.h"
 #include "vision/rgbd/paper/dominant_plane.h"
 #include "vision/rgbd/paper/narf_key_points.h"

@@ -4,7 +4,7 @@
 
 #include "core/detection/observation.h"
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 #include "experiments/trial/scoring.h"
 #include "experiments/trial_files/trial_files.h"
 #include "tests/support/temporary_folder.h"

@@ -30,6 +30,16 @@ TEST(YamlReaderTest, EveryFaultHasItsPlaceAndAllAreReported) {
   EXPECT_THAT(faults, HasSubstr("file.yaml:4:5: each entry of b must be a finite number"));
 }
 
+TEST(YamlReaderTest, WhatWasReadIsSoundUntilThereIsAFurtherFault) {
+  YamlReader reader = YamlReader::FromText("a: x\nb: 2\n", "f");
+  reader.Number(reader.root()["a"], "a");
+  const size_t before = reader.fault_count();
+  reader.Number(reader.root()["b"], "b");
+  EXPECT_EQ(reader.IfSoundSince(before, 7), 7);
+  reader.Boolean(reader.root()["b"], "b");
+  EXPECT_EQ(reader.IfSoundSince(before, 7), std::nullopt);
+}
+
 TEST(YamlReaderTest, UnknownAndRepeatedKeysAreFaults) {
   YamlReader reader = YamlReader::FromText("sensrs: 1\nseed: 2\nseed: 3\n", "f");
   const std::vector<std::string> allowed = {"sensors", "seed"};

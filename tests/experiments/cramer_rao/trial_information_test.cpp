@@ -8,7 +8,7 @@
 #include "core/io/yaml_reader.h"
 #include "experiments/report/bound_table.h"
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,7 @@
 #include "experiments/report/report.h"
 #include "experiments/run/run_study.h"
 #include "experiments/study_file/study_reader.h"
-#include "tests/experiments/run/mock_bench.h"
+#include "tests/experiments/run/mock_runner.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::testing {

@@ -14,7 +14,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const std::string kHead = "name: test\nrepetitions: 2\n";
+const std::string kFaultyHead = "name: test\nrepetitions: 2\n";
 
 struct BadStudy {
   const char* what;
@@ -27,7 +27,7 @@ struct BadStudy {
 };
 
 std::string WithFactor(const std::string& line) {
-  return kHead + "factors:\n  " + line + "\n";
+  return kFaultyHead + "factors:\n  " + line + "\n";
 }
 
 std::vector<BadStudy> BadFactors() {
@@ -115,70 +115,75 @@ std::vector<BadStudy> BadStructures() {
       {"a list", "[1, 2]", "1:1: the study must be a mapping"},
       {"no name", "repetitions: 2\n", "1:1: the study needs a name"},
       {"name of a path", "name: ../x\nrepetitions: 2\n", "1:7: name must be 1 to 64 of"},
-      {"unknown key", kHead + "sede: 2\n",
+      {"unknown key", kFaultyHead + "sede: 2\n",
        "3:1: unknown key 'sede' in the study. Did you mean "
        "'seed'?"},
-      {"negative seed", kHead + "seed: -1\n",
+      {"negative seed", kFaultyHead + "seed: -1\n",
        "3:7: seed must be a whole number from 0 to "
        "9223372036854775807"},
-      {"seed too large", kHead + "seed: 9223372036854775808\n", "3:7: seed must be"},
+      {"seed too large", kFaultyHead + "seed: 9223372036854775808\n", "3:7: seed must be"},
       {"no repetitions", "name: test\n", "1:1: part 'main' needs repetitions"},
       {"repetitions 0", "name: test\nrepetitions: 0\n",
        "2:14: repetitions must be a whole number "
        "from 1 to 1000000"},
-      {"unknown sensor", kHead + "sensors: [lidar]\n",
+      {"unknown sensor", kFaultyHead + "sensors: [lidar]\n",
        "3:11: unknown sensor 'lidar'. Known: "
        "stereo, rgbd."},
-      {"sensor twice", kHead + "sensors: [rgbd, rgbd]\n", "3:17: the sensor 'rgbd' stands twice"},
-      {"no sensors", kHead + "sensors: []\n", "3:10: sensors must be a list"},
-      {"no parts", kHead + "parts: []\n", "3:8: parts must be a list of at least one part"},
-      {"part without name", kHead + "parts:\n  - {repetitions: 3}\n", "4:5: a part needs a name"},
-      {"parts of one name", kHead + "parts:\n  - name: a\n  - name: b\n  - name: a\n",
+      {"sensor twice", kFaultyHead + "sensors: [rgbd, rgbd]\n",
+       "3:17: the sensor 'rgbd' stands twice"},
+      {"no sensors", kFaultyHead + "sensors: []\n", "3:10: sensors must be a list"},
+      {"no parts", kFaultyHead + "parts: []\n", "3:8: parts must be a list of at least one part"},
+      {"part without name", kFaultyHead + "parts:\n  - {repetitions: 3}\n",
+       "4:5: a part needs a name"},
+      {"parts of one name", kFaultyHead + "parts:\n  - name: a\n  - name: b\n  - name: a\n",
        "6:11: two parts are called 'a'"},
-      {"unknown key in a part", kHead + "parts:\n  - name: a\n    factor: {distance_m: 2}\n",
+      {"unknown key in a part", kFaultyHead + "parts:\n  - name: a\n    factor: {distance_m: 2}\n",
        "5:5: unknown key 'factor' in a part. Did you mean 'factors'?"},
   };
 }
 
 std::vector<BadStudy> BadDetectors() {
   return {
-      {"unknown", kHead + "detectors: [paper-sterio]\n",
+      {"unknown", kFaultyHead + "detectors: [paper-sterio]\n",
        "3:13: unknown detector 'paper-sterio'. Did you mean 'paper-stereo'?"},
-      {"nothing like it", kHead + "detectors: [yolo]\n",
+      {"nothing like it", kFaultyHead + "detectors: [yolo]\n",
        "3:13: unknown detector 'yolo'. Known: paper-stereo, other-stereo, paper-rgbd."},
-      {"none", kHead + "detectors: []\n", "3:12: detectors must be a list of at least one"},
-      {"without name", kHead + "detectors: [{label: a}]\n", "a detector needs a name"},
-      {"option", kHead + "detectors:\n  - name: paper-stereo\n    options: {windw_px: 7}\n",
+      {"none", kFaultyHead + "detectors: []\n", "3:12: detectors must be a list of at least one"},
+      {"without name", kFaultyHead + "detectors: [{label: a}]\n", "a detector needs a name"},
+      {"option", kFaultyHead + "detectors:\n  - name: paper-stereo\n    options: {windw_px: 7}\n",
        "5:15: unknown key 'windw_px' in options of paper-stereo. Did you mean 'window_px'?"},
       {"option value",
-       kHead + "detectors:\n  - name: paper-stereo\n    options: {window_px: 7.5}\n",
+       kFaultyHead + "detectors:\n  - name: paper-stereo\n    options: {window_px: 7.5}\n",
        "5:26: window_px must be a whole number from 5 to 31, not '7.5'"},
-      {"label twice", kHead + "detectors: [paper-stereo, paper-rgbd, paper-stereo]\n",
+      {"label twice", kFaultyHead + "detectors: [paper-stereo, paper-rgbd, paper-stereo]\n",
        "3:39: two detectors are called 'paper-stereo': give this one a label"},
-      {"without its sensor", kHead + "sensors: [rgbd]\ndetectors: [paper-rgbd, other-stereo]\n",
+      {"without its sensor",
+       kFaultyHead + "sensors: [rgbd]\ndetectors: [paper-rgbd, other-stereo]\n",
        "4:25: other-stereo works on stereo, which part 'main' does not use"},
       {"without its sensor in any part",
-       kHead + "detectors: [paper-rgbd, other-stereo]\nparts: [{name: a, sensors: [rgbd]}]\n",
+       kFaultyHead + "detectors: [paper-rgbd, other-stereo]\nparts: [{name: a, sensors: [rgbd]}]\n",
        "3:25: other-stereo works on stereo, which no part uses"},
-      {"sensor without", kHead + "detectors: [paper-rgbd]\n",
+      {"sensor without", kFaultyHead + "detectors: [paper-rgbd]\n",
        "part 'main' has no detector for its sensor stereo"},
   };
 }
 
 std::vector<BadStudy> BadWholes() {
   return {
-      {"no effect on the sensor", kHead + "sensors: [stereo]\nfactors:\n  rgbd_near_mode: true\n",
+      {"no effect on the sensor",
+       kFaultyHead + "sensors: [stereo]\nfactors:\n  rgbd_near_mode: true\n",
        "5:3: rgbd_near_mode has no effect: part 'main' uses another sensor"},
       {"no effect in the scene", WithFactor("glass: true"),
        "4:3: glass has no effect on the painted target; it needs scene: facade"},
-      {"no effect in any part", kHead + "factors:\n  glass: true\nparts: [{name: a}, {name: b}]\n",
+      {"no effect in any part",
+       kFaultyHead + "factors:\n  glass: true\nparts: [{name: a}, {name: b}]\n",
        "4:3: glass has no effect in any part"},
       {"too many cells",
-       kHead + "factors:\n  yaw_deg: {from: 0, to: 99, step: 1}\n"
-               "  roll_deg: {from: 0, to: 50, step: 1}\n",
+       kFaultyHead + "factors:\n  yaw_deg: {from: 0, to: 99, step: 1}\n"
+                     "  roll_deg: {from: 0, to: 50, step: 1}\n",
        "the study has 10200 cells; at most 10000 are allowed"},
       {"uncountably many",
-       kHead + "sensors: [rgbd]\nfactors:\n" +
+       kFaultyHead + "sensors: [rgbd]\nfactors:\n" +
            [] {
              std::string lines;
              for (const char* name : {"yaw_deg", "roll_deg", "pitch_deg", "azimuth_deg",
@@ -207,7 +212,7 @@ std::vector<BadStudy> Contradictions() {
        WithFactor("window_width_m: {uniform: [0.5, 1]}\n  frame_width_m: {uniform: [0.1, 0.3]}"),
        "part 'main' contradicts itself"},
       {"window larger than the wall",
-       kHead + "parts:\n  - name: a\n  - name: b\n    factors:\n      wall_width_m: 0.5\n",
+       kFaultyHead + "parts:\n  - name: a\n  - name: b\n    factors:\n      wall_width_m: 0.5\n",
        "7:7: part 'b' contradicts itself: paper_target: a target of 1 m x 1 m does not fit"},
       {"in the facade", WithFactor("scene: facade\n  frame_width_m: 0.7"), "5:3: part 'main'"},
       {"samples", WithFactor("stereo_edge_samples: 100"),

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra {

@@ -1,12 +1,12 @@
-#include "experiments/depth_bench/depth_curves.h"
+#include "experiments/depth_curves/depth_curves.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/depth_bench/depth_bench.h"
-#include "experiments/depth_bench/depth_laws.h"
+#include "experiments/depth_curves/depth_laws.h"
+#include "experiments/depth_curves/wall_setup.h"
 
 namespace fenestra {
 namespace {

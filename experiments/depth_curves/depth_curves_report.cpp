@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/geometry/pose.h"
-#include "experiments/depth_bench/depth_bench.h"
-#include "experiments/depth_bench/depth_curves.h"
-#include "experiments/depth_bench/depth_laws.h"
+#include "experiments/depth_curves/depth_curves.h"
+#include "experiments/depth_curves/depth_laws.h"
+#include "experiments/depth_curves/wall_setup.h"
 #include "experiments/output/text_table.h"
 
 namespace fenestra {

@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "core/geometry/pose.h"
-#include "experiments/depth_bench/depth_curves.h"
-#include "experiments/depth_bench/depth_laws.h"
+#include "experiments/depth_curves/depth_curves.h"
+#include "experiments/depth_curves/depth_laws.h"
 #include "experiments/output/plot.h"
 
 namespace fenestra {

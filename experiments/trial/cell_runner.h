@@ -9,7 +9,7 @@
 #include "core/geometry/calibration.h"
 #include "experiments/trial/calibration_cache.h"
 #include "experiments/trial/detector_maker.h"
-#include "experiments/trial/trial_bench.h"
+#include "experiments/trial/trial_runner.h"
 #include "renderers/ray_caster.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"

@@ -1,4 +1,4 @@
-#include "experiments/depth_bench/depth_bench.h"
+#include "experiments/depth_curves/wall_setup.h"
 
 #include <Eigen/QR>
 #include <cmath>

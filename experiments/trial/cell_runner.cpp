@@ -1,4 +1,4 @@
-#include "experiments/trial/cell_bench.h"
+#include "experiments/trial/cell_runner.h"
 
 #include "experiments/trial/calibrated_rig.h"
 #include "experiments/trial/scoring.h"

@@ -1,4 +1,4 @@
-#include "experiments/depth_bench/depth_laws.h"
+#include "experiments/depth_curves/depth_laws.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "experiments/depth_bench/depth_curves.h"
+#include "experiments/depth_curves/depth_curves.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "core/geometry/pose.h"
-#include "experiments/depth_bench/depth_bench.h"
+#include "experiments/depth_curves/wall_setup.h"
 
 namespace fenestra {
 namespace {
