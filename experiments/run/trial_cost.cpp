@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "core/io/private_folder.h"
+#include "core/io/temporary_files.h"
 #include "experiments/report/report.h"
 #include "experiments/run/folder_size.h"
 #include "experiments/run/run_trials.h"

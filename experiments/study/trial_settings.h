@@ -8,9 +8,9 @@
 #include "scenes/lighting.h"
 #include "scenes/scene.h"
 #include "scenes/targets/paper_target.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"
-#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <sstream>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "scenes/gltf/gltf.h"
 #include "scenes/gltf/writer/buffer_builder.h"
 #include "scenes/gltf/writer/material_writer.h"

@@ -9,7 +9,7 @@
 #include "core/geometry/pose.h"
 #include "experiments/cramer_rao/rgbd_information.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/truth/viewpoint.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {

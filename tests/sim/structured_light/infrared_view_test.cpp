@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "scenes/targets/paper_target.h"
-#include "sim/truth/viewpoint.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
-#include "sim/truth/viewpoint.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {
