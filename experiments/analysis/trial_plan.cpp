@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/system/check.h"
-#include "experiments/statistics/looks.h"
+#include "experiments/statistics/intervals.h"
 
 namespace fenestra {
 namespace {

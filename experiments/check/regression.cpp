@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "experiments/statistics/sign_flip.h"
+#include "experiments/statistics/paired.h"
 
 namespace fenestra {
 namespace {

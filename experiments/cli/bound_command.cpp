@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/report/bound_table.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"

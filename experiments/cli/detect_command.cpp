@@ -7,7 +7,6 @@
 #include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
-#include "experiments/cli/plugins.h"
 #include "experiments/trial_files/trial_files.h"
 
 namespace fenestra::cli {

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "experiments/cli/command_line.h"
 #include "experiments/study/study.h"
+#include "experiments/trial/detector_maker.h"
 
 namespace fenestra::cli {
 
@@ -26,5 +28,14 @@ void AddDetectorOptions(Command command, DetectorArguments& arguments);
 /// Loads the plugins and finds the detector. Throws InputError for what does not exist, does not
 /// work on the sensor or has no such option.
 DetectorChoice ChooseDetector(const DetectorArguments& arguments, SensorKind sensor);
+
+/// --plugin LIBRARY, as often as one likes.
+void AddPluginOption(Command command, std::vector<std::filesystem::path>& plugins);
+
+/// Throws InputError (see LoadPlugin).
+void LoadPlugins(const std::vector<std::filesystem::path>& plugins);
+
+/// Makes detectors, the isolated ones by starting this very program with these plugins.
+std::shared_ptr<DetectorMaker> MakerWith(const std::vector<std::filesystem::path>& plugins);
 
 }  // namespace fenestra::cli

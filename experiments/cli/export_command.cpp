@@ -4,7 +4,7 @@
 
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/sampling/trial_sampler.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/study/factors.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"

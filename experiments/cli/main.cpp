@@ -7,7 +7,7 @@
 #include "core/io/input_error.h"
 #include "core/system/program.h"
 #include "experiments/cli/commands.h"
-#include "experiments/run/library_versions.h"
+#include "experiments/run/run_identity.h"
 
 namespace fenestra::cli {
 namespace {

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <string_view>
 
 #include "experiments/output/number_format.h"
 
@@ -19,6 +21,18 @@ constexpr int kBarWidth = 24;
 std::string HitRate(const DetectorTally& tally) {
   if (tally.in_view == 0) return "-";
   return Percent(static_cast<double>(tally.hits) / static_cast<double>(tally.in_view), 0);
+}
+
+// A signal handler has no other way to tell.
+std::atomic<bool> requested_flag = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void Handle(int) {
+  requested_flag = true;
+  constexpr std::string_view kNote =
+      "\nfenestra: ending with the trials that run; once more to end at once\n";
+  const ssize_t written = write(STDERR_FILENO, kNote.data(), kNote.size());
+  static_cast<void>(written);  // There is nobody to tell.
 }
 
 }  // namespace
@@ -99,6 +113,24 @@ std::string Progress::Rate() const {
   const double rate = static_cast<double>(done_ - done_before_) / elapsed_s;
   return fmt::format("  {:.1f}/s  {} left", rate,
                      Duration(std::round(static_cast<double>(total_ - done_) / rate)));
+}
+
+InterruptWatch::InterruptWatch() {
+  requested_flag = false;
+  struct sigaction action {};
+  action.sa_handler = Handle;
+  action.sa_flags = static_cast<int>(SA_RESETHAND) | SA_RESTART;
+  sigaction(SIGINT, &action, &old_interrupt_);
+  sigaction(SIGTERM, &action, &old_terminate_);
+}
+
+InterruptWatch::~InterruptWatch() {
+  sigaction(SIGINT, &old_interrupt_, nullptr);
+  sigaction(SIGTERM, &old_terminate_, nullptr);
+}
+
+bool InterruptWatch::requested() const {
+  return requested_flag;
 }
 
 }  // namespace fenestra::cli

@@ -7,7 +7,7 @@
 #include "core/geometry/pose.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/sequence/sequence_writer.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"

@@ -6,7 +6,7 @@
 
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/run/replay.h"
 
 namespace fenestra::cli {

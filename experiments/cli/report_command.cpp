@@ -1,10 +1,15 @@
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <memory>
 
+#include "experiments/analysis/paired_ratio.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
-#include "experiments/cli/print_result.h"
+#include "experiments/cli/detector_arguments.h"
+#include "experiments/cli/study_run_arguments.h"
+#include "experiments/report/paired_ratio_report.h"
 #include "experiments/run/result_files.h"
+#include "experiments/store/store.h"
 
 namespace fenestra::cli {
 namespace {
@@ -51,6 +56,26 @@ void AddReportCommand(Command program) {
   AddPluginOption(command, arguments->plugins);
   command.Action([arguments] {
     Report(*arguments);
+    return kDone;
+  });
+}
+
+void AddRatiosCommand(Command program) {
+  Command command = program.AddCommand(
+      "ratios", "Compares the levels of one factor in a study's results, trial by trial");
+  command.Footer(
+      "Example:\n"
+      "  fenestra ratios results/depth_models --factor rgbd_depth_model\n"
+      "RMSE and P95 of the centroid error under each level over those under the first one, with 90 "
+      "%\n"
+      "bootstrap intervals: trials of one index have the same poses under all levels.");
+  const auto results = std::make_shared<std::filesystem::path>();
+  const auto factor = std::make_shared<std::string>();
+  command.AddOption("RESULTS", *results, "Results folder or its results.sqlite").Required();
+  command.AddOption("--factor", *factor, "A factor with levels").Required();
+  command.Action([results, factor] {
+    const std::vector<TrialRecord> rows = ResultStore::OpenReadOnly(StoreFile(*results)).Rows();
+    fmt::print("{}", PairedRatioTable(PairsBy(rows, *factor), *factor, RandomStream(1)));
     return kDone;
   });
 }

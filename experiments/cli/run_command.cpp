@@ -4,7 +4,6 @@
 #include <string>
 
 #include "experiments/cli/commands.h"
-#include "experiments/cli/print_result.h"
 #include "experiments/cli/study_run_arguments.h"
 #include "experiments/study_file/study_catalogue.h"
 

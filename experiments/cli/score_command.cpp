@@ -5,7 +5,7 @@
 
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/report/report.h"
 #include "experiments/sequence/score_sequence.h"
 

@@ -8,7 +8,7 @@
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "vision/detector_registry.h"
 #include "vision/external/detector_server.h"
 

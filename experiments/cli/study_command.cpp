@@ -5,7 +5,7 @@
 
 #include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/study_run_arguments.h"
 #include "experiments/run/study_explanation.h"
 #include "experiments/study_file/study_catalogue.h"

@@ -7,9 +7,10 @@
 
 #include "core/io/input_error.h"
 #include "core/system/program.h"
-#include "experiments/cli/interrupt.h"
-#include "experiments/cli/plugins.h"
+#include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/progress.h"
+#include "experiments/report/provenance.h"
+#include "experiments/report/report.h"
 #include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
@@ -78,6 +79,13 @@ StudyResult RunWithProgress(StudyRun run) {
   run.on_stored = [&progress](std::span<const TrialRecord> rows) { progress.Add(rows); };
   run.stop = [&watch] { return watch.requested(); };
   return RunStudy(run);
+}
+
+void PrintResult(const std::vector<CellSummary>& summaries, const std::filesystem::path& folder) {
+  fmt::print("{}", SummaryForTerminal(summaries));
+  const Study study = ReadStudyFile(folder / "study.yaml", Detectors());
+  for (const auto& [what, prior] : PriorEntries(study)) fmt::print("{}: {}\n", what, prior);
+  fmt::print("\nTables and rows are in {}\n", folder.empty() ? "." : folder.string());
 }
 
 }  // namespace fenestra::cli

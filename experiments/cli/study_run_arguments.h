@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "experiments/analysis/cell_summary.h"
 #include "experiments/cli/command_line.h"
 #include "experiments/run/run_study.h"
 
@@ -35,5 +36,8 @@ StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArg
 
 /// Shows the progress on standard error; Ctrl-C ends the run with what is done stored.
 StudyResult RunWithProgress(StudyRun run);
+
+/// The tables of a result, what its detectors were told beforehand, and where its files are.
+void PrintResult(const std::vector<CellSummary>& summaries, const std::filesystem::path& folder);
 
 }  // namespace fenestra::cli

@@ -3,7 +3,53 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "core/geometry/pose.h"
+#include "sim/truth/ground_truth.h"
+#include "vision/calibration/bundle_adjustment.h"
+
 namespace fenestra {
+
+/// A frame as it truly stands before the scored camera C: two rectangles with one centre in the
+/// plane z = 0 of frame O (+x to the right, +y up). Its unknowns, in this order: the centroid p_CO
+/// [m]; a turn δ about it, R = exp(δ) R_CO [rad]; width, height and border [m].
+struct FrameState {
+  Pose X_CO;
+  double width_m;
+  double height_m;
+  double border_m;  ///< From the outer rectangle to the inner one.
+
+  static FrameState Of(const WindowTruth& window, double border_m);
+};
+
+inline constexpr int kFrameUnknowns = 9;
+inline constexpr int kCentroidUnknowns = 3;
+inline constexpr int kWidthUnknown = 6;
+inline constexpr int kHeightUnknown = 7;
+
+/// A point on one of the rectangles in C, and its derivatives by the frame's unknowns.
+struct FramePoint {
+  Eigen::Vector3d p_CQ;
+  Eigen::Matrix<double, 3, kFrameUnknowns> by_frame;
+};
+
+enum class FrameEdge { kOuter, kInner };
+
+/// `place`: (-1, -1) is the rectangle's bottom left, (1, 1) its top right.
+FramePoint PointOn(const FrameState& frame, FrameEdge edge, const Eigen::Vector2d& place);
+
+/// What an estimate knows of a window frame and of its sensor before it sees any image.
+struct PriorKnowledge {
+  /// Standard deviation of width and height around what is expected [m]; nullopt: not expected.
+  std::optional<double> size_sigma_m = {};
+  /// Stereo: covariance of the nominal calibration's error; nullopt: it is the truth.
+  std::optional<PairMatrix> calibration = {};
+  /// RGB-D: standard deviation of how far the wall's face stands before the front of the frame,
+  /// around what is expected [m]; nullopt: known.
+  std::optional<double> wall_sigma_m = {};
+};
+
+/// Adds the prior on width and height to information whose first unknowns are a window frame's.
+Eigen::MatrixXd WithSizePrior(const Eigen::MatrixXd& information, const PriorKnowledge& knowledge);
 
 /// Cramér and Rao's bound: an unbiased estimate of unknowns θ from data x has a covariance of at
 /// least F⁻¹, where F = E[∂ln p/∂θ ∂ln p/∂θᵀ] is the data's Fisher information. For independent

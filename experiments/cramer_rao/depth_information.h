@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/detection/observation.h"
-#include "experiments/cramer_rao/frame_state.h"
+#include "experiments/cramer_rao/cramer_rao.h"
 #include "renderers/ray_caster.h"
 #include "sim/structured_light/structured_light_sensor.h"
 

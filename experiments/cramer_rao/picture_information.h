@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/geometry/camera_model.h"
-#include "experiments/cramer_rao/frame_state.h"
+#include "experiments/cramer_rao/cramer_rao.h"
 #include "experiments/cramer_rao/pixel_noise.h"
 #include "sim/camera/lens.h"
 
@@ -36,7 +36,7 @@ struct ElectronPicture {
 /// If more than 64 lines cross a side, evenly chosen ones count for the others.
 ///
 /// nullopt if the camera does not see all corners.
-std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const ElectronPicture& view,
-                                                  int unknowns);
+std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame,
+                                                  const ElectronPicture& view, int unknowns);
 
 }  // namespace fenestra

@@ -1,16 +1,54 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <opencv2/core.hpp>
 #include <optional>
 
+#include "core/geometry/calibration.h"
+#include "experiments/cramer_rao/cramer_rao.h"
 #include "experiments/cramer_rao/depth_information.h"
-#include "experiments/cramer_rao/prior_knowledge.h"
+#include "experiments/cramer_rao/pixel_noise.h"
 #include "experiments/study/study.h"
+#include "sim/camera/color_camera.h"
+#include "sim/camera/lens.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"
 #include "sim/truth/ground_truth.h"
 
 namespace fenestra {
+
+/// The pixels of a pair as they would be without noise, and their noise.
+struct StereoPictures {
+  StereoCalibration cameras;  ///< As they truly are.
+  cv::Mat1f left_e;           ///< Photo-electrons of the exposure.
+  cv::Mat1f right_e;
+  PixelNoise noise;
+  PointSpread spread;
+};
+
+/// Fisher information of a pair of pictures. Unknowns: those of the frame, in the left camera; the
+/// 24 of the pair in PairVector's order; blur and levels of each picture. nullopt if a camera does
+/// not see the whole frame.
+std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
+                                                 const StereoPictures& pictures);
+
+/// The bound on the centroid's covariance [m²]; nullopt where there is none.
+std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
+                                           const PriorKnowledge& knowledge);
+
+/// Fisher information of a colour and a depth image. Unknowns: those of DepthMatrix, in the camera
+/// of the depth image's pixels, and blur and levels of each colour channel. The picture says
+/// itself how bright it is beside the frame's sides; black level and dark current are taken to be
+/// small. nullopt if the colour camera does not see the whole frame.
+std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
+                                               const RgbdCalibration& cameras,
+                                               const ColorCameraOptions& options,
+                                               const cv::Mat3b& color, const DepthMatrix& depth);
+
+/// The bound on the centroid's covariance [m²]; nullopt where there is none: without a return from
+/// depth, a frame of unknown size may be anywhere along its line of sight.
+std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
+                                         const PriorKnowledge& knowledge);
 
 /// The information that the observation of one trial has on its target, from which the bound for
 /// every detector follows. See docs/theory.md.

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "experiments/analysis/error_budget.h"
-#include "experiments/output/csv_writer.h"
+#include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"
 #include "experiments/report/report_section.h"

@@ -4,7 +4,7 @@
 #include <ostream>
 #include <sstream>
 
-#include "experiments/output/csv_writer.h"
+#include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/report/report.h"
 #include "experiments/report/report_section.h"

@@ -1,7 +1,11 @@
 #include "experiments/run/result_files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <optional>
 #include <ostream>
 
@@ -144,6 +148,30 @@ void WriteResultPictures(const ResultStore& store, const Study& study, std::span
   RunTrials(study, cells, first, options, [&](const FinishedTrial& trial) {
     WritePictures(PictureFolder(folder, trial.runner.cell()), trial);
   });
+}
+
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(folder, "the folder cannot be made: " + error.message());
+  descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0) throw InputError(folder, "is not a folder that can be read");
+  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    close(descriptor_);
+    throw InputError(folder, "another process is running a study into this folder");
+  }
+}
+
+FolderLock::~FolderLock() {
+  close(descriptor_);
+}
+
+uint64_t FolderSize(const std::filesystem::path& folder) {
+  uint64_t bytes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) bytes += entry.file_size();
+  }
+  return bytes;
 }
 
 }  // namespace fenestra

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -54,5 +55,23 @@ std::filesystem::path PictureFolder(const std::filesystem::path& folder, const C
 void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
                          const std::filesystem::path& folder, int jobs,
                          std::shared_ptr<DetectorMaker> detectors);
+
+/// Keeps two processes from running into the same results folder. Held while it lives; released by
+/// the system if the process is killed. On file systems that cannot lock a folder it does nothing.
+class FolderLock {
+ public:
+  /// Makes the folder if it is missing. Throws InputError if that fails or if another process holds
+  /// the lock.
+  explicit FolderLock(const std::filesystem::path& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// The size of all files in the folder and below it [bytes].
+uint64_t FolderSize(const std::filesystem::path& folder);
 
 }  // namespace fenestra

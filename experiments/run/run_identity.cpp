@@ -1,14 +1,19 @@
 #include "experiments/run/run_identity.h"
 
 #include <fmt/format.h>
+#include <pcl/pcl_config.h>
+#include <sqlite3.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <map>
+#include <opencv2/core/utility.hpp>
+#include <openturns/PlatformInfo.hxx>
 #include <sstream>
 
 #include "core/system/program.h"
-#include "experiments/run/library_versions.h"
 #include "experiments/study_file/study_writer.h"
+#include "renderers/tracing/embree_scene.h"
 #include "vision/plugin_loader.h"
 
 namespace fenestra {
@@ -109,6 +114,13 @@ std::vector<std::string> Differences(const RunIdentity& there, const RunIdentity
     if (a != b) compare("study", Text(Without(a, b)), Text(Without(b, a)));
   }
   return differences;
+}
+
+std::string LibraryVersions() {
+  return fmt::format("Embree {}, OpenCV {}, PCL {}, Eigen {}.{}.{}, SQLite {}, OpenTURNS {}",
+                     EmbreeVersion(), cv::getVersionString(), PCL_VERSION_PRETTY,
+                     EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION,
+                     sqlite3_libversion(), OT::PlatformInfo::GetVersion());
 }
 
 }  // namespace fenestra

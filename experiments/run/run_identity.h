@@ -8,13 +8,18 @@
 
 namespace fenestra {
 
+/// "Embree 3.13.5, OpenCV 4.6.0, PCL 1.13.0, ...": the libraries in use, as they report themselves.
+std::string LibraryVersions();
+
 /// Everything that the bits of a study's rows depend on. All rows of one store, and of the shards
-/// that are merged into one, share it.
+/// that are merged into one, share it: a run goes on, and shards are merged, only where nothing of
+/// it differs, since rows that differ in their last bits could not be told from each other
+/// afterwards.
 struct RunIdentity {
   std::string study;  ///< Resolved, as YAML; the seed is in it.
   std::string version;
-  std::string build;
-  std::string libraries;
+  std::string build;      ///< The linker's hash of the program.
+  std::string libraries;  ///< See LibraryVersions.
   std::string instruction_set;
   std::string plugins;  ///< Shared libraries with detectors: "libmine.so 5f3a…, …".
 };

@@ -12,7 +12,6 @@
 #include "core/io/input_error.h"
 #include "core/system/program.h"
 #include "experiments/analysis/trial_plan.h"
-#include "experiments/run/folder_lock.h"
 #include "experiments/run/result_files.h"
 #include "experiments/run/run_identity.h"
 #include "experiments/run/trial_writer.h"

@@ -11,7 +11,7 @@
 
 #include "experiments/analysis/cell_summary.h"
 #include "experiments/run/run_trials.h"
-#include "experiments/run/shard.h"
+#include "experiments/run/shards.h"
 #include "experiments/store/store.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/detector_maker.h"

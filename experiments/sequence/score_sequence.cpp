@@ -10,7 +10,7 @@
 #include "core/system/program.h"
 #include "experiments/analysis/cell_tally.h"
 #include "experiments/report/report.h"
-#include "experiments/run/library_versions.h"
+#include "experiments/run/run_identity.h"
 #include "experiments/store/store.h"
 #include "experiments/trial/scoring.h"
 

@@ -1,7 +1,7 @@
 #include "experiments/study/stopping_rule.h"
 
 #include "core/system/check.h"
-#include "experiments/statistics/looks.h"
+#include "experiments/statistics/intervals.h"
 
 namespace fenestra {
 

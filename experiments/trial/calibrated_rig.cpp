@@ -1,7 +1,8 @@
 #include "experiments/trial/calibrated_rig.h"
 
+#include "core/geometry/pose.h"
 #include "core/random/random_stream.h"
-#include "experiments/cramer_rao/calibration_covariance.h"
+#include "core/system/check.h"
 #include "experiments/trial/board_calibration.h"
 
 namespace fenestra {
@@ -26,6 +27,47 @@ StatedCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
     return StatedCalibration{result.calibration, result.covariance};
   };
   return cache.Get(ContentOf(noisy, choice, stream), calibrate);
+}
+
+constexpr int kTurn = 2 * kCameraParameters;
+constexpr int kShift = kTurn + 3;
+
+// X_RL with a pose E of small turn and shift before it, E X_RL: that turns it, and shifts it by
+// turn x p_RL besides the shift.
+PairMatrix MovedRight(const Eigen::Vector3d& p_RL, double turn_rad, double shift_m) {
+  Eigen::Matrix3d by_turn = -CrossMatrix(p_RL);
+  PairMatrix covariance = PairMatrix::Zero();
+  const double turn2 = turn_rad * turn_rad;
+  covariance.block<3, 3>(kTurn, kTurn).diagonal().setConstant(turn2);
+  covariance.block<3, 3>(kShift, kTurn) = turn2 * by_turn;
+  covariance.block<3, 3>(kTurn, kShift) = turn2 * by_turn.transpose();
+  covariance.block<3, 3>(kShift, kShift) =
+      turn2 * by_turn * by_turn.transpose() + shift_m * shift_m * Eigen::Matrix3d::Identity();
+  return covariance;
+}
+
+// The covariance of a rig that stands within its tolerances around its design.
+PairMatrix OfTolerances(const StereoRigOptions& options) {
+  PairMatrix covariance = PairMatrix::Zero();
+  if (options.as_designed) return covariance;
+  const RigTolerances& t = options.tolerances;
+  const StereoCalibration design = DesignOf(options);
+  const double focal_px = design.left.parameters().fx_px;
+  const Eigen::Matrix<double, 9, 1> parameters = design.left.ParameterVector();
+  for (const int camera : {0, kCameraParameters}) {
+    // One focal length for both axes.
+    covariance.block<2, 2>(camera, camera)
+        .setConstant(t.focal_length * t.focal_length * focal_px * focal_px);
+    covariance.block<2, 2>(camera + 2, camera + 2)
+        .diagonal()
+        .setConstant(t.principal_point_px * t.principal_point_px);
+    covariance.block<5, 5>(camera + 4, camera + 4).diagonal() =
+        (t.distortion * parameters.tail<5>()).cwiseAbs2();
+  }
+  // Both cameras are turned and shifted; only the right one's turn moves the left camera in it.
+  covariance += MovedRight(design.X_RL.translation(), t.rotation_rad, t.translation_m) +
+                MovedRight(Eigen::Vector3d::Zero(), t.rotation_rad, t.translation_m);
+  return covariance;
 }
 
 }  // namespace
@@ -54,6 +96,27 @@ CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
       return with_covariance(rig, DesignOf(rig.options()));
   }
   return with_covariance(rig, rig.cameras());
+}
+
+std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
+                                                const CalibrationChoice& choice,
+                                                const std::optional<PairMatrix>& boards) {
+  const Eigen::Vector3d p_RL = rig.cameras().X_RL.translation();
+  switch (choice.source) {
+    case CalibrationSource::kExact:
+      return std::nullopt;
+    case CalibrationSource::kPerturbed:
+      return MovedRight(p_RL, choice.rotation_error_rad, choice.translation_error_m);
+    case CalibrationSource::kBoards:
+      FENESTRA_CHECK(boards.has_value(), "a calibration with boards has a covariance");
+      return boards;
+    case CalibrationSource::kStale:
+      FENESTRA_CHECK(boards.has_value(), "a calibration with boards has a covariance");
+      return *boards + MovedRight(p_RL, choice.shake_rotation_rad, choice.shake_translation_m);
+    case CalibrationSource::kDesign:
+      return OfTolerances(rig.options());
+  }
+  FENESTRA_CHECK(false, "calibration source out of range");
 }
 
 }  // namespace fenestra

@@ -7,6 +7,7 @@
 #include "experiments/study/calibration_choice.h"
 #include "experiments/trial/calibration_cache.h"
 #include "sim/stereo/stereo_rig.h"
+#include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {
 
@@ -22,5 +23,13 @@ struct CalibratedRig {
 /// time. Throws InputError if a calibration with boards fails.
 CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
                          const RandomStream& calibration, const CalibrationCache& cache);
+
+/// Covariance of the error of this rig's nominal calibration (PairError), to first order, under the
+/// distribution that the choice draws from. nullopt: the calibration is exact. `boards`: the
+/// covariance that a calibration with boards estimates for itself; it must be there for kBoards and
+/// kStale.
+std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
+                                                const CalibrationChoice& choice,
+                                                const std::optional<PairMatrix>& boards);
 
 }  // namespace fenestra

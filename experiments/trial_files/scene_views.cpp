@@ -11,8 +11,7 @@
 #include "core/io/input_error.h"
 #include "core/io/srgb.h"
 #include "core/io/temporary_files.h"
-#include "experiments/trial_files/truth_exr.h"
-#include "experiments/trial_files/truth_json.h"
+#include "experiments/trial_files/truth_files.h"
 #include "renderers/ray_caster.h"
 #include "scenes/mesh/tessellation.h"
 

@@ -8,11 +8,9 @@
 #include "core/geometry/calibration.h"
 #include "core/io/image_io.h"
 #include "core/io/temporary_files.h"
-#include "experiments/output/pcd.h"
-#include "experiments/trial_files/target_visibility.h"
+#include "experiments/output/file_formats.h"
 #include "experiments/trial_files/trial_drawing.h"
-#include "experiments/trial_files/truth_exr.h"
-#include "experiments/trial_files/truth_json.h"
+#include "experiments/trial_files/truth_files.h"
 
 namespace fenestra {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/random/random_stream.h"
-#include "experiments/statistics/looks.h"
+#include "experiments/statistics/intervals.h"
 #include "tests/experiments/study_file/study_text.h"
 
 namespace fenestra {

@@ -1,11 +1,9 @@
-#include "experiments/cramer_rao/calibration_covariance.h"
+#include "experiments/trial/calibrated_rig.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <boost/math/distributions/chi_squared.hpp>
-
-#include "experiments/trial/calibrated_rig.h"
 
 namespace fenestra {
 namespace {

@@ -7,7 +7,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 
 #include "core/geometry/pose.h"
-#include "experiments/cramer_rao/rgbd_information.h"
+#include "experiments/cramer_rao/trial_information.h"
 #include "scenes/targets/paper_target.h"
 #include "sim/motion/rig_pose.h"
 

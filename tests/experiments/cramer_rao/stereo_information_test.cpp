@@ -1,4 +1,4 @@
-#include "experiments/cramer_rao/stereo_information.h"
+#include "experiments/cramer_rao/trial_information.h"
 
 #include <gtest/gtest.h>
 

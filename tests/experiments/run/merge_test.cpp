@@ -1,4 +1,4 @@
-#include "experiments/run/merge.h"
+#include "experiments/run/shards.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "experiments/sampling/sobol_points.h"
 #include "experiments/sampling/trial_sampler.h"
 #include "tests/experiments/study_file/study_text.h"
 

@@ -1,4 +1,4 @@
-#include "experiments/statistics/looks.h"
+#include "experiments/statistics/intervals.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,6 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 
-#include "core/io/input_error.h"
 #include "renderers/ray_caster.h"
 #include "scenes/facade/facade.h"
 #include "scenes/targets/paper_target.h"
@@ -152,15 +151,6 @@ TEST(SunShadow, OfTheRevealOnTheFrameFollowsTheGeometry) {
   }
   EXPECT_GT(lit, 1000);
   EXPECT_GT(shadowed, 1000);
-}
-
-TEST(RenderOptions, AllFaultsAreReportedAtOnce) {
-  try {
-    Validate(RenderOptions{.samples_per_pixel = 7, .edge_samples_per_pixel = 5});
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().size(), 3u) << error.what();
-  }
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper/dominant_plane.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 
 #include <gtest/gtest.h>
 
