@@ -29,8 +29,8 @@ glm::dvec3 HueRgb(Hue hue);
 /// light than it receives.
 double MostReflectance(Hue hue);
 
-/// Refuses reflectances beyond [0, 1] or beyond what the hue can have. `name` and "_reflectance"
-/// make the name of the paint's reflectance.
+/// Adds a fault for reflectances beyond [0, 1] or beyond what the hue can have. `name` and
+/// "_reflectance" make the name of the paint's reflectance.
 void CheckPaint(const std::string& name, const Paint& paint, Faults& faults);
 
 /// A material whose reflectance has the paint's luminance and hue.

@@ -6,7 +6,6 @@
 #include "core/io/input_error.h"
 #include "core/io/temporary_files.h"
 #include "scenes/gltf/gltf.h"
-#include "scenes/gltf/writer/buffer_builder.h"
 #include "scenes/gltf/writer/material_writer.h"
 #include "scenes/gltf/writer/node_writer.h"
 

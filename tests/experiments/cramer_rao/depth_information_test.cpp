@@ -8,7 +8,7 @@
 
 #include "core/geometry/pose.h"
 #include "experiments/cramer_rao/trial_information.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "sim/motion/rig_pose.h"
 
 namespace fenestra {

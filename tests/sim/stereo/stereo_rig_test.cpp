@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "sim/motion/rig_pose.h"
 
 namespace fenestra {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "sim/motion/rig_pose.h"
 
 namespace fenestra {
