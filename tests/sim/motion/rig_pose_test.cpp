@@ -1,4 +1,4 @@
-#include "sim/motion/rig_motion.h"
+#include "sim/motion/rig_pose.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,10 @@
 
 #include <opencv2/core.hpp>
 
+#include "core/detection/depth_reprojection.h"
 #include "core/detection/observation.h"
 #include "core/geometry/camera_model.h"
+#include "renderers/ray_caster.h"
 #include "renderers/tracing/render_types.h"
 #include "sim/structured_light/disparity.h"
 #include "sim/structured_light/infrared_image.h"
@@ -53,6 +55,28 @@ class MissingReturn {
   const DisparityRange& range_;
   const CameraModel& camera_;
   Eigen::Vector3d p_CP_;
+};
+
+/// Registers depth images to the colour camera, as drivers do: every pixel is reprojected to where
+/// the colour camera sees it. What only the colour camera sees becomes a hole at the foreground's
+/// edge.
+class DepthRegistrar {
+ public:
+  /// `depth`: the camera D of the depth images; `registered`: that of the result, at the colour
+  /// camera K.
+  DepthRegistrar(const CameraModel& depth, const Pose& X_KD, const CameraModel& registered);
+
+  /// The reasons of holes are those of the depth pixels that should have been reprojected there.
+  ExplainedDepth Register(const ExplainedDepth& depth, const RayCaster& caster,
+                          const Lighting& lighting, const Pose& X_WK) const;
+
+ private:
+  NoReturn Reason(const ExplainedDepth& depth, cv::Point pixel, float z_m) const;
+
+  CameraModel depth_;
+  Pose X_DK_;
+  RayGrid rays_;  ///< The rays of the registered camera.
+  DepthReprojection reprojection_;
 };
 
 }  // namespace fenestra

@@ -1,4 +1,4 @@
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 
 #include <gtest/gtest.h>
 

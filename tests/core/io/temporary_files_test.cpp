@@ -1,4 +1,4 @@
-#include "core/io/atomic_file.h"
+#include "core/io/temporary_files.h"
 
 #include <gtest/gtest.h>
 

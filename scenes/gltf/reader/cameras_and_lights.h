@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scenes/gltf/reader/asset.h"
@@ -19,5 +20,13 @@ inline Pose FlipCameraAxes(const Pose& X_WG) {
   R_WC.rightCols<2>() *= -1.0;
   return Pose(R_WC, X_WG.translation());
 }
+
+struct Lights {
+  std::optional<Sun> sun;  ///< The first directional light.
+  std::vector<Lamp> lamps;
+};
+
+/// The lights of KHR_lights_punctual on visible nodes. They shine along the -z axis of their node.
+Lights ReadLights(const Asset& asset, const std::vector<PlacedNode>& nodes, Notes& notes);
 
 }  // namespace fenestra::gltf

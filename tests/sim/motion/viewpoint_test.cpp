@@ -1,4 +1,4 @@
-#include "sim/truth/viewpoint.h"
+#include "sim/motion/rig_pose.h"
 
 #include <gtest/gtest.h>
 
