@@ -17,5 +17,6 @@ configure_package_config_file(cmake/FenestraConfig.cmake.in
   ${CMAKE_BINARY_DIR}/FenestraConfig.cmake INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/FenestraConfigVersion.cmake
   COMPATIBILITY ExactVersion)
-install(FILES ${CMAKE_BINARY_DIR}/FenestraConfig.cmake ${CMAKE_BINARY_DIR}/FenestraConfigVersion.cmake
+install(FILES cmake/FenestraOpenCV.cmake
+  ${CMAKE_BINARY_DIR}/FenestraConfig.cmake ${CMAKE_BINARY_DIR}/FenestraConfigVersion.cmake
   DESTINATION ${package_dir})

@@ -48,13 +48,33 @@ endif()
 
 # How sources are compiled: each folder's in groups of at most 12, and with the headers of other
 # projects read beforehand. Parsing these and instantiating their templates takes most of the time.
-add_library(fenestra_precompiled OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
-target_link_libraries(fenestra_precompiled PRIVATE fenestra_options)
-target_precompile_headers(fenestra_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h)
-function(fenestra_compile_together target precompiled)
-  target_precompile_headers(${target} REUSE_FROM ${precompiled})
+# fenestra_precompile(<name> <optimisation> [headers...]): headers for sources of that optimisation.
+function(fenestra_precompile name optimisation)
+  add_library(fenestra_precompiled_${name} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled.cpp)
+  target_link_libraries(fenestra_precompiled_${name} PRIVATE fenestra_options)
+  target_compile_options(fenestra_precompiled_${name} PRIVATE
+    $<$<CONFIG:Release>:${optimisation}>)
+  target_precompile_headers(fenestra_precompiled_${name} PRIVATE
+    ${PROJECT_SOURCE_DIR}/cmake/precompiled.h ${ARGN})
+  set_target_properties(fenestra_precompiled_${name} PROPERTIES optimisation ${optimisation})
+endfunction()
+fenestra_precompile(hot -O3)
+fenestra_precompile(cold -O1)
+fenestra_precompile(test -O1 <gmock/gmock.h> <gtest/gtest.h>)
+# fenestra_compile(<target> <name>): as fenestra_precompile(<name> ...) says.
+function(fenestra_compile target name)
+  get_target_property(optimisation fenestra_precompiled_${name} optimisation)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
+  target_precompile_headers(${target} REUSE_FROM fenestra_precompiled_${name})
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
 endfunction()
+
+# The folders in which trials spend their time. Optimising all others as much would take more time
+# than it saves.
+string(JOIN "|" hot_folders
+  core/geometry core/random renderers scenes/facade scenes/mesh sim
+  vision/calibration vision/frame vision/rgbd vision/stereo
+  experiments/cramer_rao experiments/statistics)
 
 # fenestra_library([SOURCES ...] [PUBLIC libs...] [PRIVATE libs...]): the library of the folder whose
 # CMakeLists.txt calls it, named after its path: sim/camera is fenestra::sim_camera. Without sources
@@ -70,7 +90,11 @@ function(fenestra_library)
       PUBLIC ${ARG_PUBLIC}
       PRIVATE $<BUILD_INTERFACE:fenestra_options> ${ARG_PRIVATE})
     set(scope PUBLIC)
-    fenestra_compile_together(fenestra_${name} fenestra_precompiled)
+    if(folder MATCHES "^(${hot_folders})")
+      fenestra_compile(fenestra_${name} hot)
+    else()
+      fenestra_compile(fenestra_${name} cold)
+    endif()
   else()
     add_library(fenestra_${name} INTERFACE)
     target_link_libraries(fenestra_${name} INTERFACE ${ARG_PUBLIC})
@@ -88,11 +112,15 @@ function(fenestra_test name)
   add_executable(test_${name} ${ARG_SOURCES})
   target_link_libraries(test_${name} PRIVATE fenestra_options ${ARG_LIBRARIES}
     GTest::gmock GTest::gtest_main)
-  # Tests spend their time in the libraries, and compiling them in optimising what runs once.
-  target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  fenestra_compile(test_${name} test)
+  # A program has the tests of many folders, whose sources are compiled together folder by folder.
+  set_target_properties(test_${name} PROPERTIES UNITY_BUILD_MODE GROUP)
   # Folders only where they are named: all other objects are the same in every checkout, so that
   # the compiler cache serves them.
   foreach(source ${ARG_SOURCES})
+    cmake_path(GET source PARENT_PATH folder)
+    string(MAKE_C_IDENTIFIER "${folder}" group)
+    set_property(SOURCE ${source} PROPERTY UNITY_GROUP in_${group})
     file(STRINGS ${source} names_folder REGEX "FENESTRA_(SOURCE|BUILD)_DIR" LIMIT_COUNT 1)
     if(names_folder)
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS

@@ -28,6 +28,26 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
 }
 
+# PCL's and ArUco's headers, into build/headers. Installing these packages would install a hundred
+# times as much that nothing here uses: VTK, Java, MPI, Qt, and every other module of OpenCV.
+unpack_headers() {
+  local package
+  for package in libpcl-dev libflann-dev libopencv-contrib-dev; do
+    if [ -e "build/headers/$package" ] || [ -e "/usr/share/doc/$package" ]; then continue; fi
+    echo "Unpacking the headers of $package" >&2
+    (
+      folder=$(mktemp -d)
+      trap 'rm -r "$folder"' EXIT
+      cd "$folder"
+      apt-get download -qq -o APT::Sandbox::User=root "$package" >&2
+      dpkg-deb --extract "$package"_*.deb unpacked
+      mkdir -p "$OLDPWD/build/headers/usr"
+      cp -r unpacked/usr/include "$OLDPWD/build/headers/usr"
+      touch "$OLDPWD/build/headers/$package"
+    )
+  done
+}
+
 # build_preset PRESET [TARGET...]: configures once and builds; quiet unless there is something to do.
 build_preset() {
   local preset=$1
@@ -57,6 +77,7 @@ bring_up_to_date() {
       flock 9
     fi
     install_packages
+    unpack_headers
     build_preset "$@"
   ) 9>build/lock
 }

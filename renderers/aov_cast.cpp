@@ -48,7 +48,7 @@ AovImages MakeImages(const cv::Size& size, bool with_point) {
   return images;
 }
 
-// Normalised image coordinates at a pixel; outside the image the border's spacing goes on.
+// Normalised image coordinates at a pixel; outside the image the border's spacing continues.
 Eigen::Vector2f ImagePointAt(const RayGrid& rays, float u_px, float v_px) {
   const float x = u_px + 0.5f;
   const float y = v_px + 0.5f;
@@ -144,7 +144,7 @@ class AovCaster {
         scene_.materials[material].reflectance_830nm * PatternAt830(packet, lane);
   }
 
-  // What the surface's pattern does at 830 nm, at the very point.
+  // The factor of the surface's pattern at 830 nm, at exactly this point.
   float PatternAt830(const RayPacket& packet, int lane) const {
     const SurfacePatterns& patterns = traced_.patterns();
     const uint32_t triangle = packet.hit.primID[lane];

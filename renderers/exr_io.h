@@ -17,7 +17,7 @@ struct ExrChannel {
 
 /// Channels of one size and text attributes.
 struct ExrImage {
-  std::vector<ExrChannel> channels;  ///< When read: sorted by name, as the file has them.
+  std::vector<ExrChannel> channels;  ///< Sorted by name after reading, as in the file.
   std::map<std::string, std::string> metadata;
 };
 
@@ -28,7 +28,8 @@ void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& 
               const std::map<std::string, std::string>& metadata);
 
 struct ExrReadOptions {
-  /// Of all channels; 1 GiB in memory by default, as a small file may claim to be a huge image.
+  /// Most values of all channels together; by default 1 GiB in memory, since a small file may claim
+  /// to be a huge image.
   int64_t most_values = int64_t{1} << 28;
 };
 

@@ -13,7 +13,7 @@
 namespace fenestra {
 namespace {
 
-// Between the rays of neighbouring pixels, over the depth: the mean of the whole image.
+// Mean distance between the rays of neighbouring pixels, divided by the depth.
 float Spread(const RayGrid& rays) {
   const Eigen::Vector2f across = rays.Corner(rays.width_px(), rays.height_px()) - rays.Corner(0, 0);
   return std::sqrt(std::abs(across.x() * across.y()) /

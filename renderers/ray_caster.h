@@ -13,10 +13,10 @@
 namespace fenestra {
 
 struct RayCasterOptions {
-  /// Diffuse reflections that light goes through before it reaches what is seen. The rest that is
-  /// left out is at most ρ^(bounces + 1) of the light in a closed white room of reflectance ρ.
+  /// Number of diffuse reflections that light undergoes before it reaches what is seen. The light
+  /// that is left out is at most ρ^(bounces + 1) of all light in a closed room of reflectance ρ.
   int bounces = 16;
-  /// What Embree may use of this machine. Fenestra's own kernels round alike on all of them;
+  /// Instruction set that Embree may use. Fenestra's own kernels round alike on all of them, but
   /// Embree's hits differ in their last bits. See docs/performance.md.
   InstructionSet instruction_set = InstructionSet::kBest;
 };
@@ -24,8 +24,8 @@ struct RayCasterOptions {
 /// Throws InputError unless bounces is in [0, 1000].
 void Validate(const RayCasterOptions& options);
 
-/// An Embree ray caster for one scene. Construction builds the ray tracing structures and bakes,
-/// for every vertex, what it sees of the sky, of the ground and of other surfaces; all else depends
+/// An Embree ray caster for one scene. Construction builds the ray tracing structures and bakes
+/// what every vertex sees of the sky, of the ground and of other surfaces; everything else depends
 /// on the arguments of the calls. Const calls are thread-safe and single-threaded inside.
 class RayCaster {
  public:
@@ -41,8 +41,9 @@ class RayCaster {
   cv::Mat Render(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
                  const RenderOptions& options, const RandomStream& sampling) const;
 
-  /// The same over each quarter of each pixel, for a point spread that is narrower than a pixel:
-  /// such a spread softens the light before pixels gather it, which whole pixels no longer tell.
+  /// Mean radiance over each quarter of each pixel, for a point spread that is narrower than a
+  /// pixel: it blurs the light before pixels integrate it, which cannot be computed from whole
+  /// pixels.
   QuarterImages RenderQuarters(const RayGrid& rays, const Pose& X_WC, const Lighting& lighting,
                                const RenderOptions& options, const RandomStream& sampling) const;
 

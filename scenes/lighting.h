@@ -12,7 +12,6 @@ inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
 
 /// A distant disc too small to blur a shadow at window scale.
 struct Sun {
-  /// Above the horizon, in the facade's half space for a positive z.
   double azimuth_rad = 0.0;               ///< From the facade's normal (+Z) towards +X.
   double elevation_rad = 40.0 * kDegree;  ///< Above the horizon.
   double illuminance_lx = 0.0;            ///< On a plane perpendicular to the rays; 0: no sun.
@@ -23,7 +22,7 @@ struct Sun {
 
 /// A sky dome above the horizon and, below it, a Lambert ground that sky and sun light.
 struct Sky {
-  /// How luminance is spread over the dome; see SkyDome.
+  /// Distribution of luminance over the dome; see SkyDome.
   enum class Model {
     kUniform,
     kCieOvercast,  ///< Three times as bright at the zenith as at the horizon.
@@ -31,7 +30,7 @@ struct Sky {
   };
   Model model = Model::kUniform;
   double illuminance_lx = 500.0;    ///< On an unobstructed horizontal plane.
-  double ground_reflectance = 0.2;  ///< Of the unobstructed ground.
+  double ground_reflectance = 0.2;  ///< Reflectance of the unobstructed ground.
 };
 
 /// All light of a scene; radiance is linear in each illuminance. `irradiance_830_per_lux` turns

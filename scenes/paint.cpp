@@ -14,9 +14,9 @@ struct NamedHue {
   glm::dvec3 rgb;  // Linear, of any luminance.
 };
 
-// In the order of the enumeration. Linear values of typical sRGB colours: brick (165, 100, 80),
-// ochre plaster (205, 170, 110), brown wood paint (90, 60, 40), foliage (66, 97, 56), blue paint
-// (50, 80, 130). Chosen by eye.
+// Hues in the order of the enumeration: linear values of typical sRGB colours: brick (165, 100,
+// 80), ochre plaster (205, 170, 110), brown wood paint (90, 60, 40), foliage (66, 97, 56), blue
+// paint (50, 80, 130). Chosen by eye.
 constexpr std::array<NamedHue, 6> kHues{{
     {"neutral", {1.0, 1.0, 1.0}},
     {"brick_red", {0.376, 0.127, 0.080}},

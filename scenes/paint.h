@@ -11,7 +11,7 @@ namespace fenestra {
 
 enum class Hue { kNeutral, kBrickRed, kOchre, kBrown, kGreen, kBlue };
 
-/// Their names, in order: neutral, brick_red, ...
+/// The names of the hues, in order: neutral, brick_red, ...
 const std::vector<std::string>& HueNames();
 
 /// A matt surface as a study describes it: how bright it is to the eye and at 830 nm, and its hue.
@@ -32,7 +32,7 @@ double MostReflectance(Hue hue);
 /// make the name of the paint's reflectance.
 void CheckPaint(const std::string& name, const Paint& paint, Faults& faults);
 
-/// Its reflectance has the paint's luminance and hue.
+/// A material whose reflectance has the paint's luminance and hue.
 Material MaterialOf(const std::string& name, const Paint& paint);
 
 }  // namespace fenestra

@@ -17,7 +17,7 @@ namespace fenestra {
 
 /// A picture on a surface. Red, green and blue are sRGB-encoded; alpha is linear.
 struct Texture {
-  /// What stands beyond [0, 1] of a texture coordinate.
+  /// The continuation of a texture beyond coordinates of [0, 1].
   enum class Wrap { kRepeat, kMirroredRepeat, kClampToEdge };
 
   std::string name{};
@@ -26,7 +26,7 @@ struct Texture {
   std::vector<glm::u8vec4> texels{};  ///< Row-major from the top left; width_px · height_px.
   Wrap wrap_u = Wrap::kRepeat;
   Wrap wrap_v = Wrap::kRepeat;
-  /// Between texel centres, linear interpolation of linear values; else the nearest texel.
+  /// true: linear values are interpolated between texel centres; false: the nearest texel counts.
   bool interpolated = true;
 };
 
@@ -52,8 +52,8 @@ struct Lamp {
   std::optional<Cone> cone{};
 };
 
-/// How a surface treats light. Every surface has separate reflectances in the visible and at
-/// 830 nm, the structured-light projector's wavelength: a black paint may be bright there.
+/// Optical properties of a surface. Reflectances in the visible and at 830 nm, the wavelength of
+/// structured-light projectors, are separate: a black paint may be bright there.
 struct Material {
   enum class Kind {
     /// Radiance = emission + reflectance · irradiance / π, the same in all directions.
@@ -71,7 +71,7 @@ struct Material {
   /// Index into Scene::textures; Lambert only. Multiplies reflectance and emission: in the visible
   /// per colour, at 830 nm by its luminance. Without texture coordinates a mesh has no texture.
   std::optional<uint32_t> texture{};
-  /// Where the texture's alpha is below this there is a hole in the surface. 0: no holes.
+  /// The surface has a hole where the texture's alpha is below this; 0: no holes.
   float alpha_cutoff = 0.0f;
 };
 
@@ -93,12 +93,12 @@ struct Mesh {
   std::vector<glm::vec3> normals_W{};
 };
 
-/// The window whose truth is scored. Frame O: origin at the centre of the frame's front outer
-/// rectangle, +x to the viewer's right, +y up, +z out of the wall towards the viewer.
+/// The window whose truth is scored. Frame O: origin at the centre of the window frame's front
+/// outer rectangle, +x to the viewer's right, +y up, +z out of the wall towards the viewer.
 struct TargetWindow {
   Pose X_WO;
-  double width_m = 0.0;   ///< Outer width of the frame.
-  double height_m = 0.0;  ///< Outer height of the frame.
+  double width_m = 0.0;   ///< Outer width of the window frame.
+  double height_m = 0.0;  ///< Outer height of the window frame.
 
   /// Corners of the front outer rectangle: top left, top right, bottom right, bottom left as a
   /// viewer in front of the window sees them.
@@ -106,8 +106,8 @@ struct TargetWindow {
   Eigen::Vector3d Centroid_W() const { return X_WO.translation(); }
 };
 
-/// What stands in the world. World frame W: right-handed, +Y up, metres; the facade's outer face is
-/// the plane z = 0, its outward normal +Z. A mesh's index is its object id.
+/// The contents of the world. World frame W: right-handed, +Y up, metres; the facade's outer face
+/// is the plane z = 0, its outward normal +Z. A mesh's index is its object id.
 struct Scene {
   std::vector<Material> materials;
   std::vector<Mesh> meshes;

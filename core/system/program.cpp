@@ -97,7 +97,8 @@ std::string CommandLine() {
   std::ifstream words("/proc/self/cmdline", std::ios::binary);
   std::string command;
   for (std::string word; std::getline(words, word, '\0');) {
-    command += (command.empty() ? "" : " ") + ShellQuoted(word);
+    if (!command.empty()) command += ' ';
+    command += ShellQuoted(word);
   }
   return command;
 }
@@ -120,7 +121,8 @@ std::string ShellQuoted(const std::string& word) {
       quoted += c;
     }
   }
-  return quoted + "'";
+  quoted += '\'';
+  return quoted;
 }
 
 void KeepFreedMemory() {

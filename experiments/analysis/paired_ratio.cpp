@@ -102,12 +102,12 @@ PairedRatios RatiosOf(std::span<const std::vector<ErrorPair>> cells, const Rando
 }
 
 std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std::string& factor) {
-  struct Cell {
+  struct LevelRows {
     std::string level;
     std::map<int, const TrialRecord*> rows;  // By trial.
   };
   // By what the cells have in common; in the order of their indices.
-  std::map<std::string, std::vector<std::pair<int, Cell>>> groups;
+  std::map<std::string, std::vector<std::pair<int, LevelRows>>> groups;
   std::vector<std::string> order;
   bool is_known = false;
   for (const TrialRecord& row : records) {
@@ -125,7 +125,7 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
     auto cell = std::find_if(group.begin(), group.end(),
                              [&](const auto& entry) { return entry.first == row.cell; });
     if (cell == group.end())
-      cell = group.insert(cell, std::pair<int, Cell>(row.cell, Cell{level, {}}));
+      cell = group.insert(cell, std::pair<int, LevelRows>(row.cell, LevelRows{level, {}}));
     cell->second.rows[row.trial] = &row;
   }
   if (!is_known) {
@@ -134,9 +134,9 @@ std::vector<PairedCells> PairsBy(std::span<const TrialRecord> records, const std
   std::vector<PairedCells> paired;
   for (const std::string& key : order) {
     const auto& group = groups[key];
-    const Cell& base = group.front().second;
+    const LevelRows& base = group.front().second;
     for (size_t i = 1; i < group.size(); ++i) {
-      const Cell& cell = group[i].second;
+      const LevelRows& cell = group[i].second;
       const TrialRecord& first = *cell.rows.begin()->second;
       PairedCells pairs{.part = first.part,
                         .sensor = first.sensor,

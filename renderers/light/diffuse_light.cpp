@@ -14,8 +14,8 @@ namespace {
 
 using glm::vec3;
 
-// Changes below this part of the largest irradiance are not seen: a sensor's noise is a hundred
-// times that.
+// Changes below this part of the largest irradiance are invisible: a sensor's noise is a hundred
+// times larger.
 constexpr float kSettled = 1e-5f;
 
 vec3 ToVec3(const Eigen::Vector3d& v) {

@@ -9,16 +9,15 @@
 
 namespace fenestra {
 
-/// Light that reaches the points of a LightBake: from the open, and from other surfaces by any
-/// number of diffuse bounces up to a limit. Light that arrives straight from sun and lamps is left
-/// to shadow rays. With the vector E of the points' irradiances, the sides' reflectances ρ and
+/// Light that reaches the points of a LightBake from sky and ground, and from other surfaces by up
+/// to a given number of diffuse bounces. Light that arrives straight from sun and lamps is left to
+/// shadow rays. With the vector E of the points' irradiances, the sides' reflectances ρ and
 /// exitances M_0 before any bounce, and the form factors G,
 ///
 ///     E = E_open + G (M_0 + ρ Ē),   Ē: mean over a side's corners,
 ///
-/// is iterated from E = E_open `bounces` times, or until nothing changes any more by 1e-5 of the
-/// largest irradiance. All is linear in each light; each is known for a
-/// unit of it.
+/// is iterated from E = E_open `bounces` times, or until no value changes by more than 1e-5 of the
+/// largest irradiance. The result is linear in each light and computed for a unit of it.
 class DiffuseLight {
  public:
   /// Keeps references to all arguments.
@@ -26,15 +25,15 @@ class DiffuseLight {
 
   using PointIrradiances = std::vector<Spectrum>;
 
-  /// Of a sky of horizontal illuminance 1.
+  /// Irradiances by a sky of horizontal illuminance 1.
   PointIrradiances FromSky(const SkyDome& dome) const;
-  /// Of a ground of exitance 1.
+  /// Irradiances by a ground of exitance 1.
   PointIrradiances FromGround() const;
-  /// Of a sun of illuminance 1 in the direction of the unit vector.
+  /// Irradiances by a sun of illuminance 1 in the direction of the unit vector.
   PointIrradiances FromSun(const glm::vec3& to_sun_W) const;
-  /// Of all lamps, not dimmed.
+  /// Irradiances by all lamps, not dimmed.
   PointIrradiances FromLamps() const;
-  /// Of all that emits.
+  /// Irradiances by all surfaces that emit light.
   PointIrradiances FromEmission() const;
 
  private:

@@ -9,22 +9,22 @@
 
 namespace fenestra {
 
-/// The diffuse light of a scene under any lighting. What a unit of each light gives is found when
-/// it is first asked for and kept, so that a lighting that only dims known lights costs nothing,
-/// and another position of the sun a few milliseconds. Thread-safe; results do not depend on what
-/// was asked before.
+/// The diffuse light of a scene under any lighting. The effect of a unit of each light is computed
+/// at its first use and kept, so that a lighting that only dims known lights costs nothing, and
+/// another position of the sun a few milliseconds. Thread-safe; results do not depend on earlier
+/// calls.
 class Illumination {
  public:
   /// Keeps references to the arguments.
   Illumination(const Scene& scene, const TracedScene& traced, const LightBake& bake, int bounces);
 
-  /// The irradiance of the bake's points, without what comes straight from sun and lamps.
+  /// The irradiance of the bake's points, without light that comes straight from sun and lamps.
   std::vector<Spectrum> Ambient(const Lighting& lighting) const;
 
  private:
   using Solution = std::shared_ptr<const DiffuseLight::PointIrradiances>;
 
-  // What a unit solution depends on besides the scene.
+  // Everything that a unit solution depends on besides the scene.
   struct Key {
     enum class Light { kSky, kGround, kSun, kLamps, kEmission };
     Light light;
@@ -42,7 +42,7 @@ class Illumination {
   bool has_lamps_;
   bool has_emission_;
   mutable std::mutex mutex_;
-  mutable std::vector<std::pair<Key, Solution>> known_;  // The latest last.
+  mutable std::vector<std::pair<Key, Solution>> known_;  // In the order of their last use.
 };
 
 }  // namespace fenestra

@@ -44,8 +44,8 @@ inline constexpr int kBlockSide = 4;
 static_assert(kBlockSide * kBlockSide == kLanes);
 
 struct PixelBlock {
-  Lanes<uint32_t> corner;  ///< Of each pixel's top left corner: see PatchesOf.
-  Lanes<uint32_t> seed_x;  ///< For ScrambledPoints.
+  Lanes<uint32_t> corner;  ///< Index of each pixel's top left corner: see PatchesOf.
+  Lanes<uint32_t> seed_x;  ///< Seeds for ScrambledPoints.
   Lanes<uint32_t> seed_y;
 };
 
@@ -74,8 +74,9 @@ ImagePoints InPixels(const PixelPatches& patches, const PixelPoints& points);
 /// The side that each lane hit, or the sky or the ground: see SideIndex.
 Lanes<uint32_t> SidesHit(const RayPacket& packet, uint32_t triangle_count);
 
-/// How wide a pixel's area is on what was hit [m]: `spread` times the whole way of the ray, of
-/// which `before` is the part before a mirror, stretched by 1/cos, so its side by the root.
+/// Width of a pixel's area on the surface that was hit [m]: `spread` times the length of the ray,
+/// of which `before` is the part before a mirror. The area is stretched by 1/cos, so its side by
+/// the root of that.
 Lanes<float> PixelWidths(const RayPacket& packet, const Lanes<float>& before, float spread);
 
 /// table[index[i]] of each lane.

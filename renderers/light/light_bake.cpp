@@ -19,7 +19,7 @@ using glm::vec3;
 constexpr float kSameTransmittance = 0.1f;
 constexpr uint32_t kOpen = ~0u;
 
-// What a ray has found.
+// The end of a ray.
 struct Ending {
   uint32_t side = kOpen;  // Of the surface that was hit.
   float transmittance = 0.0f;
@@ -32,7 +32,7 @@ struct Ending {
   }
 };
 
-// Collects what the rays of one point have found, each standing for a part of the hemisphere.
+// Collects the ends of the rays from one point, each standing for a part of the hemisphere.
 class ViewTally {
  public:
   void Add(const Ending& ending, float weight) {
@@ -52,7 +52,7 @@ class ViewTally {
     total_ += weight;
   }
 
-  // The quadrature's parts above and below the horizon are scaled to what they are for n.
+  // The quadrature's parts above and below the horizon are scaled to their exact values for n.
   LightBake::OpenView OpenView(const vec3& n) const {
     const float sky = 0.5f * (1.0f + n.y);
     const float ground = 0.5f * (1.0f - n.y);
@@ -106,7 +106,7 @@ class Baker {
     return tally;
   }
 
-  // As if nothing stood before the point.
+  // The view if nothing stood before the point.
   LightBake::OpenView UnobstructedView(const BakePoint& point) const {
     ViewTally tally;
     for (const DirectionSquare& square : directions_.cells) {

@@ -9,8 +9,8 @@
 
 namespace fenestra {
 
-/// What the corners of all surfaces see of the sky, of the ground and of each other: all that
-/// diffuse light needs to know of the geometry. A point's irradiance is
+/// The views of the sky, of the ground and of each other from the corners of all surfaces. Diffuse
+/// light depends on the geometry through them alone. A point's irradiance is
 ///
 ///     E = Σ_k sky_k L_k + ground M_ground + Σ_s w_s M_s
 ///
@@ -20,10 +20,9 @@ namespace fenestra {
 /// ground = (1 − n_y)/2 exactly; in a closed room Σ_s w_s = 1.
 ///
 /// A point's hemisphere is divided into 24 x 24 cells of equal cosine-weighted solid angle with a
-/// ray each; where neighbouring rays end differently, in the open or on a surface, 16 rays per cell
-/// follow. Error of the visible part: about 0.001, and
-/// 0.003 behind a pane that reaches to grazing angles. Panes count with their transmittance; what
-/// they mirror is left out.
+/// ray each. Where neighbouring rays end differently, in the open or on a surface, 16 rays per cell
+/// follow. The error of the visible part is about 0.001, and 0.003 behind a pane that reaches to
+/// grazing angles. Panes count with their transmittance; their mirror images are left out.
 struct LightBake {
   static constexpr uint32_t kNoPoint = ~0u;
 
@@ -38,8 +37,8 @@ struct LightBake {
 
   /// The points at the three corners of each side (see SideIndex); kNoPoint inside closed bodies.
   std::vector<std::array<uint32_t, 3>> corners;
-  /// Of each point: its row of `open_views`. Points of a side that has everything behind it share
-  /// one.
+  /// Row of `open_views` of each point. The points of a side share one if the whole scene lies
+  /// behind it.
   std::vector<uint32_t> open_view_of;
   std::vector<OpenView> open_views;
   /// The form factors of point p are [first_factor[p], first_factor[p + 1]).
@@ -49,7 +48,8 @@ struct LightBake {
   size_t point_count() const { return open_view_of.size(); }
 };
 
-/// `surfaces` as NumberSurfaces gives them: triangles of one surface share the points of a corner.
+/// Computes the views. `surfaces` are those of NumberSurfaces: triangles of one surface share the
+/// points of a corner.
 LightBake BakeLight(const TracedScene& scene, const std::vector<uint32_t>& surfaces);
 
 }  // namespace fenestra

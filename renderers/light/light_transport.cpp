@@ -95,8 +95,8 @@ LightTransport::LightTransport(const Surfaces& surfaces, const std::vector<Spect
     for (const Mesh& mesh : scene.meshes) {
       const Material& material = scene.materials[mesh.material];
       const Spectrum reflectance = ReflectanceSpectrum(material);
-      // Under white light a pattern scales the channel by the mean over the spectrum of what it
-      // scales; a surface that only shines is weighted by its emission.
+      // Under white light, a pattern scales the channel by its mean over the spectrum, weighted
+      // with the reflectance or, for a surface that only emits, with the emission.
       Spectrum of = weights * reflectance;
       float sum = of.x + of.y + of.z + of.w;
       if (!(sum > 0.0f)) {

@@ -10,18 +10,19 @@
 
 namespace fenestra {
 
-/// The light of a scene under one lighting: what arrives along rays.
+/// The light of a scene under one lighting, as it arrives along rays.
 ///
-/// Along a ray that meets a surface arrives the surface's radiance (see SideRadiance) with V found
-/// by a shadow ray, the lamps' light with one more each, and all of it times the surface's pattern.
-/// A pane of glass before it adds its mirror image, seen without further panes:
+/// A ray that meets a surface carries the surface's radiance (see SideRadiance), with V found by a
+/// shadow ray, and the light of the lamps, with one more shadow ray each, all of it multiplied by
+/// the surface's pattern. A pane of glass before it adds its mirror image, seen without further
+/// panes:
 ///
 ///     L = (1 − R) L_behind + R L_mirror.
 class LightTransport {
  public:
   static constexpr int kMostChannels = 3;
 
-  /// What all light transports of one scene have in common.
+  /// Data that all light transports of one scene have in common.
   struct Surfaces {
     const Scene& scene;
     const TracedScene& traced;
@@ -30,14 +31,14 @@ class LightTransport {
     const std::vector<uint32_t>& side_keys;
   };
 
-  /// A ray's neighbours are this far from it: `spread` times its depth, at an angle to the surface.
+  /// The origin of rays, and the distance between neighbouring rays: `spread` times their depth.
   struct Viewer {
     glm::vec3 p_WC;
     float spread = 0.0f;
   };
 
-  /// `ambient`: irradiance of the bake's points under this lighting, without what comes straight
-  /// from sun and lamps.
+  /// `ambient`: irradiance of the bake's points under this lighting, without light that comes
+  /// straight from sun and lamps.
   LightTransport(const Surfaces& surfaces, const std::vector<Spectrum>& ambient,
                  const Lighting& lighting, const std::vector<Channel>& channels,
                  const Viewer& viewer);
@@ -46,26 +47,26 @@ class LightTransport {
 
   struct Arriving {
     std::array<Lanes<float>, kMostChannels> radiance;
-    /// Different where something else is seen: another surface, sun instead of shadow, a pane
-    /// before it, another mirror image in the pane.
+    /// Differs between rays that see different things: another surface, sun instead of shadow, a
+    /// pane before the surface, another mirror image in the pane.
     Lanes<uint32_t> key;
   };
 
   /// Traces fresh rays (see SetRays) in the lanes of the mask; other lanes are undefined.
   Arriving Trace(const LaneMask& mask, RayPacket& packet) const;
 
-  /// Where a packet's rays end on opaque surfaces, and the light there.
+  /// The ends of a packet's rays on opaque surfaces, and the light there.
   struct Ends {
     Lanes<uint32_t> side_hit;  ///< See SideIndex.
     std::array<Lanes<float>, kMostChannels> radiance;
-    /// The part of the sun's light that arrives, panes considered: 0 in the shadow, where the
-    /// surface faces away, where nothing was hit and without a sun.
+    /// The share of the sun's light that arrives through panes: 0 in shadow, on a surface that
+    /// faces away, where nothing was hit, and without a sun.
     Lanes<float> sun;
-    LaneMask sun_disc;           ///< The ray goes to the sun itself.
-    Lanes<float> transmittance;  ///< Of the panes before the surface.
+    LaneMask sun_disc;           ///< Whether the ray leads to the sun itself.
+    Lanes<float> transmittance;  ///< Transmittance of the panes before the surface.
   };
 
-  /// Traces fresh rays as if the panes between the viewer and the surfaces took no light.
+  /// Traces fresh rays as if panes between the viewer and the surfaces were perfectly clear.
   Ends TraceOpaque(const LaneMask& mask, RayPacket& packet) const;
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kInversePi = 1.0f / std::numbers::pi_v<float>;
 
-// What the sun gives at the corners of a side: the cosines to it, 0 if it stands behind the side.
+// Cosines of the sun's angles of incidence at the corners of a side, 0 if it is behind the side.
 glm::vec3 SunCosines(const TriangleSoup& soup, size_t triangle, bool front,
                      const glm::vec3& to_sun_W) {
   const float sign = front ? 1.0f : -1.0f;
@@ -21,7 +21,7 @@ glm::vec3 SunCosines(const TriangleSoup& soup, size_t triangle, bool front,
   glm::vec3 cosines;
   for (int k = 0; k < 3; ++k) {
     const glm::vec3& n = soup.vertex_normals_W[soup.triangles[triangle][k]];
-    // Normals on either side of the surface mean the same.
+    // Opposite normals stand for the same surface.
     const float same = glm::dot(n, soup.normals_W[triangle]) < 0.0f ? -sign : sign;
     cosines[k] = same * glm::dot(n, to_sun_W);
   }

@@ -18,28 +18,27 @@ struct SideRadiance {
   float ambient = 0.0f;
   float ambient_u = 0.0f;
   float ambient_v = 0.0f;
-  float sun = 0.0f;  ///< 0 with its derivatives where the sun stands behind this side.
+  float sun = 0.0f;  ///< 0, as are its derivatives, if the sun is behind this side.
   float sun_u = 0.0f;
   float sun_v = 0.0f;
 };
 
-/// Radiance of all sides; `ambient` is the irradiance of the bake's points. The sky's is left at 0.
-///
-/// For channels of arriving light it is the irradiance itself, and 0 for sky and ground.
+/// Radiance of all sides, for the irradiance `ambient` of the bake's points; 0 for the sky. In
+/// channels of arriving light it is the irradiance itself, and 0 for sky and ground.
 std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
                                         const LightBake& bake, const std::vector<Spectrum>& ambient,
                                         const Lighting& lighting, Channel channel);
 
-/// The different sides among those that a packet has hit: few, and all lanes of one are shaded
-/// at once.
+/// The different sides that a packet has hit. They are few, and all lanes of one side are shaded at
+/// once.
 struct SideGroups {
   Lanes<uint32_t> sides;
   int count = 0;
 };
 SideGroups GroupsOf(const Lanes<uint32_t>& side_hit);
 
-/// The light that leaves each hit, without the sun's, and the sun's if it reaches the hit.
-/// `groups`: of the sides hit.
+/// The light that leaves each hit: AmbientLeaving without the sun's light, SunLeaving the sun's
+/// light if it reaches the hit. `groups` are those of the sides hit.
 Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
                             const Lanes<uint32_t>& side_hit, const RayPacket& packet);
 Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,

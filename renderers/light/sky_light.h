@@ -8,15 +8,15 @@
 
 namespace fenestra {
 
-/// What a ray sees that leaves the scene upwards: the sky, and the sun's disc before it. The disc
-/// has the sun's illuminance spread evenly over its solid angle.
+/// The sky and, before it, the sun's disc, as rays see them that leave the scene upwards. The sun's
+/// illuminance is spread evenly over the disc's solid angle.
 class SkyLight {
  public:
   explicit SkyLight(const Lighting& lighting);
 
   struct Seen {
     Spectrum radiance{0.0f};
-    bool sun = false;  ///< The disc is in this direction.
+    bool sun = false;  ///< Whether the disc is in this direction.
   };
 
   /// The direction need not be normalised; y > 0.

@@ -20,7 +20,7 @@ inline float Luminance(const glm::vec3& rgb) {
   return kRec709.r * rgb.r + kRec709.g * rgb.g + kRec709.b * rgb.b;
 }
 
-/// What patterns do at 830 nm: see Material::texture.
+/// A pattern's factors, at 830 nm by their luminance: see Material::texture.
 inline Spectrum PatternSpectrum(const glm::vec3& factors) {
   return {factors, Luminance(factors)};
 }

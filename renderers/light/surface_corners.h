@@ -10,7 +10,7 @@
 
 namespace fenestra {
 
-/// A point from which the hemisphere about n is looked at.
+/// A point with the normal of the hemisphere that is seen from it.
 struct BakePoint {
   glm::vec3 p_W{0.0f};
   glm::vec3 n_W{0.0f};

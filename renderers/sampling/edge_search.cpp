@@ -13,7 +13,7 @@ constexpr int kBorders = 4;
 // A probe nearer than this to the edge that the lines have found may be on either side of it.
 constexpr float kNear = 1.0f / 64.0f;
 
-// How an edge is searched: on so many lines, all of which a packet's lanes share. A third thing
+// Layout of an edge search: a number of lines, which share the lanes of a packet. A third thing
 // that turns up once the edge is known to within kSliverIn is a sliver along the edge, as the rim
 // of a frame that a pane lies flush with; it is counted with what is behind it.
 template <int lines>
@@ -42,14 +42,14 @@ float LineAt(int line) {
   return (static_cast<float>(line) + 0.5f) / static_cast<float>(How::kLines);
 }
 
-// Everything that was seen in a pixel, with its place.
+// All samples of a pixel with their places.
 struct Sighting {
   float s;
   float t;
   uint32_t key;
 };
 
-// One of the two things that are seen.
+// One of the two things that are visible.
 struct Thing {
   uint32_t key = 0;
   int count = 0;
@@ -88,7 +88,7 @@ class EdgeSearch {
   using Keys = std::array<uint32_t, kLines>;  // Of each line's beginning or end.
   using Places = std::array<float, kLines>;   // On each line.
 
-  // Notes what a packet has seen; false if it is a third thing.
+  // Adds the samples of a packet; returns false if one of them saw a third thing.
   bool Note(const PixelPoints& points, const Arriving& arriving) {
     for (int i = 0; i < kLanes; ++i) {
       const uint32_t key = arriving.key[i];
@@ -118,7 +118,7 @@ class EdgeSearch {
     return true;
   }
 
-  // The ends of all lines, those along s and those along t.
+  // Samples the ends of all lines, of those along s and of those along t.
   bool LookAtBorders() {
     for (int first = 0; first < kBorders * kLines; first += kLanes) {
       PixelPoints points;
@@ -139,7 +139,7 @@ class EdgeSearch {
     return true;
   }
 
-  // Which thing comes first along the lines; false if that is not the same on all lines.
+  // Finds the thing that comes first along the lines; returns false if lines differ in that.
   bool Orient(const Keys& begins, const Keys& ends) {
     bool crossed = false;
     for (size_t i = 0; i < kLines; ++i) {
@@ -151,7 +151,7 @@ class EdgeSearch {
     return crossed;
   }
 
-  // Where the lines are cut, in which interval of each.
+  // Finds the interval of each line in which the edge cuts it.
   struct Cuts {
     Places low;
     Places high;
@@ -180,8 +180,8 @@ class EdgeSearch {
     return true;
   }
 
-  // Tries all points of a packet, in even intervals of each line; false if something else turns up
-  // or a line is crossed more than once.
+  // Samples all points of a packet at even intervals of each line; returns false if a third thing
+  // turns up or a line is crossed more than once.
   bool Narrow(int step, const Keys& begins, const Keys& ends, Cuts& cuts) {
     constexpr int kPoints = How::kPointsPerLine;
     Lanes<float> places;
@@ -219,7 +219,7 @@ class EdgeSearch {
     return true;
   }
 
-  // Where the edge is on the lines, and at both ends of the pixel, to which it goes on straight.
+  // Positions of the edge on the lines and at both ends of the pixel, to which it is extrapolated.
   std::array<float, kLines + 2> EdgeAcross() const {
     std::array<float, kLines + 2> places;
     std::copy(edge_.begin(), edge_.end(), places.begin() + 1);
@@ -228,7 +228,7 @@ class EdgeSearch {
     return places;
   }
 
-  // Whether all that was seen lies on the side of the edge on which it should.
+  // Whether all samples lie on their own side of the edge.
   bool Agrees() const {
     const auto places = EdgeAcross();
     for (size_t n = 0; n < sighting_count_; ++n) {

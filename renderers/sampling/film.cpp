@@ -16,8 +16,8 @@ void MarkAround(cv::Mat1b& marks, Film::Pixel pixel) {
 }
 
 // Quarters of the pixels of one row, of `stride` interleaved channels: the plane through the
-// neighbours, as steep as `smooth` of all five pixels lets it be. From the second pixel to the last
-// but one.
+// neighbours, which is level unless all five pixels are `smooth`. Covers the second pixel to the
+// last but one.
 struct Rows {
   const float* above;
   const float* here;

@@ -11,7 +11,7 @@
 
 namespace fenestra {
 
-/// An image under construction, and what each of its pixels has seen.
+/// An image under construction, with the key of what each of its pixels has seen.
 class Film {
  public:
   struct Pixel {
@@ -19,18 +19,18 @@ class Film {
     int row;
   };
 
-  /// The key of a pixel among whose samples are different ones; no side has this key.
+  /// The key of a pixel whose samples differ in their keys; no side has this key.
   static constexpr uint32_t kMixed = ~0u;
 
   using Radiance = std::array<float, LightTransport::kMostChannels>;
 
-  /// What the samples of one pixel told: their mean, and what they have seen.
+  /// The result of one pixel's samples: their mean, and the key of what they have seen.
   struct PixelResult {
     Radiance radiance{};
     uint32_t key = 0;
   };
 
-  /// The same for each quarter of a pixel, in the order of QuarterImages.
+  /// The result for each quarter of a pixel, in the order of QuarterImages.
   struct QuarteredResult {
     std::array<Radiance, 4> quarters{};
     uint32_t key = 0;
@@ -55,17 +55,17 @@ class Film {
     return result;
   }
 
-  /// Marks the pixels where different things have been seen: 255 where a pixel or one of its eight
-  /// neighbours is mixed, or a neighbour has seen something else: since samples may miss a corner
-  /// that an edge cuts off, both sides of it count.
+  /// Marks the pixels that may contain an edge: 255 where a pixel or one of its eight neighbours is
+  /// mixed, or where a neighbour has another key. Both sides count, since samples may miss a corner
+  /// that an edge cuts off.
   void MarkEdges();
   const cv::Mat1b& edges() const { return edges_; }
 
   /// The image; CV_32F with the film's channels.
   cv::Mat TakeRadiance() { return std::move(radiance_); }
 
-  /// The image in quarters of pixels: as they were set; elsewhere of the plane through the pixel
-  /// and its neighbours, level next to an edge. Edges must have been marked.
+  /// The image in quarters of pixels: as they were set, elsewhere from the plane through the pixel
+  /// and its neighbours, which is level next to an edge. Edges must have been marked.
   QuarterImages TakeQuarters() const;
 
  private:

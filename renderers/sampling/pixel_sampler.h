@@ -21,7 +21,7 @@ class PixelSampler {
   /// The scrambling seeds of a pixel.
   SobolPoint SeedsOf(Film::Pixel pixel) const { return scramble_.OfPixel(IndexOf(pixel)); }
 
-  /// The pixel in all lanes.
+  /// The same pixel in all lanes.
   PixelPatches PatchOf(Film::Pixel pixel) const;
 
   LightTransport::Arriving Trace(const PixelPatches& patches, const PixelPoints& points) const;
@@ -32,15 +32,15 @@ class PixelSampler {
   /// The mean of `samples` samples, a multiple of 16.
   Film::PixelResult SampleDensely(Film::Pixel pixel, int samples) const;
 
-  /// Of each quarter of a pixel that which falls on it of `samples` samples: 4, 16, 64 or 256,
-  /// which are the same number in each.
+  /// The mean of each quarter of a pixel over `samples` samples of the pixel: 4, 16, 64 or 256, of
+  /// which equally many fall on each quarter.
   Film::QuarteredResult SampleQuarters(Film::Pixel pixel, int samples) const;
 
-  /// `samples` samples of each pixel of the block with this top left pixel, as far as it is in the
+  /// Takes `samples` samples of each pixel of the block with this top left pixel that is in the
   /// image.
   void SampleBlock(Film::Pixel top_left, int samples, Film& film) const;
 
-  /// The same for one pixel.
+  /// The mean of `samples` samples of one pixel, fewer than a packet.
   Film::PixelResult SampleSparsely(Film::Pixel pixel, int samples) const;
 
  private:

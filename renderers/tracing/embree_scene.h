@@ -25,10 +25,10 @@ class EmbreeDevice {
   RTCDevice device_;
 };
 
-/// How alike the rays of a packet are: only a hint for speed.
+/// Whether the rays of a packet are similar: a hint that only affects speed.
 enum class Coherence { kCoherent, kIncoherent };
 
-/// What a hit's geomID says.
+/// The kind of surface that was hit: a hit's geomID.
 enum GeometryId : unsigned { kOpaqueGeometry = 0, kHoledGeometry = 1, kPaneGeometry = 2 };
 
 /// The ray tracing structure of triangles. A hit's primID is the triangle's index in its soup. Rays
@@ -71,7 +71,7 @@ class EmbreeScene {
   }
 
  private:
-  // What Embree hands to the filter of a geometry with holes.
+  // Data that Embree passes to the filter of a geometry with holes.
   struct HoleTest {
     const SurfacePatterns* patterns;
     uint32_t first;
@@ -93,7 +93,7 @@ class EmbreeScene {
   HoleTest hole_test_;
 };
 
-/// "3.13.5": of the Embree library that is loaded.
+/// Version of the Embree library that is loaded, such as "3.13.5".
 std::string EmbreeVersion();
 
 }  // namespace fenestra

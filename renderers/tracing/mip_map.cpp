@@ -61,8 +61,8 @@ int FloorToInt(float x) {
   return truncated - (static_cast<float>(truncated) > x ? 1 : 0);
 }
 
-// log2 at powers of two and linear between them: at most 0.09 above it, which no one sees in a
-// level.
+// log2 at powers of two, linear between them. It is too large by at most 0.09 of a level, which is
+// not visible.
 float RoughLog2(float x) {
   const auto bits = std::bit_cast<uint32_t>(x);
   return static_cast<float>(bits) * 0x1p-23f - 127.0f;

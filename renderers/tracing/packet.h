@@ -43,7 +43,7 @@ using RayPacket = RTCRayHit16;
 /// The first `count` lanes.
 LaneMask FirstLanes(int count);
 
-/// Makes all lanes rays from one origin, without a hit yet. The normal of a packet's missing hits
+/// Sets all lanes to rays from one origin, without a hit. The normal of a packet's missing hits
 /// is (0, -1, 0): as seen from above it faces the ray, from below it faces away, so that "the side
 /// that is seen" also tells sky from ground.
 void SetRays(RayPacket& packet, const glm::vec3& origin_W, const Directions& directions_W);

@@ -34,7 +34,7 @@ constexpr SobolPoint NthSobolPoint(uint32_t index) {
 inline constexpr int kMostPixelSamples = 256;
 
 struct SobolTable {
-  /// With their bits in reverse, least significant bit first, as OwenScrambled wants them.
+  /// The points' bits in reverse order, least significant bit first, as OwenScrambled needs them.
   alignas(64) std::array<uint32_t, kMostPixelSamples> x;
   alignas(64) std::array<uint32_t, kMostPixelSamples> y;
 };
@@ -87,7 +87,7 @@ constexpr uint32_t Hashed(uint32_t x) {
   return x ^ (x >> 16);
 }
 
-/// What the samples of one image are scrambled with.
+/// The scrambling of one image's samples.
 struct ImageScramble {
   uint32_t x;
   uint32_t y;

@@ -8,7 +8,8 @@
 
 namespace fenestra {
 
-/// What textures and vertex colours do to the reflectance and emission of a soup's triangles.
+/// Factors by which textures and vertex colours multiply reflectance and emission of a soup's
+/// triangles.
 class SurfacePatterns {
  public:
   SurfacePatterns(const Scene& scene, const TriangleSoup& soup);
@@ -21,7 +22,7 @@ class SurfacePatterns {
   /// surface.
   glm::vec3 At(uint32_t triangle, float u, float v, float width_m) const;
 
-  /// The same, averaged over about the whole triangle.
+  /// Factors averaged over about the whole triangle.
   glm::vec3 Mean(uint32_t triangle) const;
 
   /// Whether the surface has a hole there.

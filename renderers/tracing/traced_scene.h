@@ -9,8 +9,8 @@
 
 namespace fenestra {
 
-/// A scene made ready for rays, with three views of it: all surfaces, for what a viewer sees;
-/// opaque ones alone and panes of glass alone, for light that is on its way to a surface.
+/// A scene prepared for tracing rays, in three structures: all surfaces, for rays from a viewer;
+/// opaque surfaces alone and panes of glass alone, for light on its way to a surface.
 class TracedScene {
  public:
   explicit TracedScene(const Scene& scene, InstructionSet instruction_set = InstructionSet::kBest);
@@ -22,14 +22,14 @@ class TracedScene {
   const EmbreeScene& opaque_tracer() const { return opaque_tracer_; }
   bool has_panes() const { return !pane_tracer_.empty(); }
 
-  /// How far [m] a ray must start off the surface of its origin so as not to hit it again: some
-  /// fifty times the rounding error of positions as far out as the scene or the viewer.
+  /// Distance [m] from its surface at which a ray must start so as not to hit the surface again:
+  /// some fifty times the rounding error of positions as far out as the scene or the viewer.
   float SurfaceOffset(const glm::vec3& viewer_W) const;
 
   /// Light that has passed this many panes is not followed further; a house has two in a row.
   static constexpr int kMostPanes = 8;
 
-  /// Where to search on behind a pane that was hit at t.
+  /// Distance from which the search goes on behind a pane that was hit at t.
   static float Beyond(float t) { return t + std::max(1e-5f * t, 1e-6f); }
 
   /// Finds the nearest opaque hit of each lane of the mask, and calls `on_panes(mask, packet)` for
@@ -38,11 +38,11 @@ class TracedScene {
   void IntersectThroughPanes(const LaneMask& mask, RayPacket& packet, Coherence coherence,
                              const OnPanes& on_panes) const;
 
-  /// What of the light passes along each ray of the mask up to its tfar: 0 if an opaque surface is
-  /// in the way, else the product of the transmittances of all panes. Destroys the rays.
+  /// Share of the light that passes along each ray of the mask up to its tfar: 0 if an opaque
+  /// surface is in the way, else the product of the transmittances of all panes. Destroys the rays.
   Lanes<float> Transmittance(const LaneMask& mask, RTCRay16& rays, Coherence coherence) const;
 
-  /// Of the panes that lanes of the mask have hit; 0 in other lanes.
+  /// Reflectances of the panes that lanes of the mask have hit; 0 in other lanes.
   Lanes<float> ReflectancesHit(const LaneMask& panes, const RayPacket& packet) const;
 
  private:
@@ -57,10 +57,10 @@ class TracedScene {
   EmbreeScene pane_tracer_;
 };
 
-/// Leaves only those lanes in the mask that have hit a pane; whether there are any.
+/// Removes all lanes from the mask that have not hit a pane; returns whether any are left.
 bool KeepPaneHits(const RayPacket& packet, LaneMask& mask);
 
-/// Lets the lanes of the mask search on from where they are.
+/// Makes the rays of the mask go on behind their hits.
 void SearchBeyond(const LaneMask& mask, RayPacket& packet);
 
 template <typename OnPanes>

@@ -10,19 +10,20 @@
 
 namespace fenestra {
 
-/// All triangles of a scene that are of one kind. Triangles without area are left out: no ray can
-/// hit them. Those whose texture has holes come last, otherwise they are in the order of the
-/// meshes.
+/// All triangles of a scene that are of one kind. Triangles without area are left out, since no
+/// ray can hit them. Triangles whose texture has holes come last; otherwise they are in the order
+/// of the meshes.
 struct TriangleSoup {
   std::vector<glm::vec3> positions_W;
   std::vector<glm::uvec3> triangles;  ///< Indices into positions_W.
-  std::vector<uint32_t> mesh_of;      ///< Of each triangle, in the scene.
-  std::vector<glm::vec3> normals_W;   ///< Of each triangle: unit, right-handed with its corners.
-  std::vector<bool> is_closed;        ///< Of each triangle: see Mesh::closed.
-  size_t solid_count = 0;             ///< Triangles before the first one with holes.
+  std::vector<uint32_t> mesh_of;      ///< Index of each triangle's mesh in the scene.
+  std::vector<glm::vec3>
+      normals_W;                ///< Unit normal of each triangle, right-handed with its corners.
+  std::vector<bool> is_closed;  ///< Mesh::closed of each triangle.
+  size_t solid_count = 0;       ///< Number of triangles before the first one with holes.
 
-  /// Of each position. A mesh without texture coordinates has zeros, one without colours ones, and
-  /// one without normals zero vectors.
+  /// Attributes of each position. A mesh without texture coordinates has zeros, one without colours
+  /// ones, and one without normals zero vectors.
   std::vector<glm::vec2> texture_coordinates;
   std::vector<glm::vec3> colors;
   std::vector<glm::vec3> vertex_normals_W;
@@ -41,8 +42,8 @@ constexpr size_t SideIndex(size_t triangle, bool front) {
 
 TriangleSoup MakeTriangleSoup(const Scene& scene, Material::Kind kind);
 
-/// Numbers the surfaces that the triangles are part of. An edge that is seen lies between surfaces
-/// of different numbers. Triangles of one mesh are of one surface if their planes agree to about
+/// Numbers the surfaces to which the triangles belong. A visible edge lies between surfaces with
+/// different numbers. Triangles of one mesh are of one surface if their planes agree to about
 /// 1e-4 in the normal and 0.1 mm in the distance, or if they are smooth and share an edge with the
 /// same normals at its ends.
 std::vector<uint32_t> NumberSurfaces(const TriangleSoup& soup);

@@ -5,8 +5,8 @@
 
 namespace fenestra {
 
-/// The target's centroid is (0, 0, -setback_m), whatever else there is. Meshes are named after what
-/// they are; where there are such things, in this order: wall, frame, room, sill, lintel, other
+/// Makes a facade. The target's centroid is always (0, 0, -setback_m). Meshes are named after what
+/// they show and come in this order, if they exist: wall, frame, room, sill, lintel, other
 /// frame, other room, pane, other panes, shutters, drainpipe, cables, railing, blind, other blinds,
 /// plant. Throws InputError, with all faults, if the options are not valid.
 Scene MakeFacade(const FacadeOptions& options);

@@ -8,7 +8,7 @@
 
 namespace fenestra {
 
-/// From an opening's side to the outer edge of the shutter that stands open beside it.
+/// Distance from an opening's side to the outer edge of the shutter that stands open beside it.
 double ShutterReach_m(double window_width_m);
 
 /// The boxes of a window's two open leaves, a little before the wall.

@@ -8,16 +8,16 @@
 
 namespace fenestra {
 
-/// Around an opening is at least this much wall, and behind a room's surfaces this much masonry.
+/// Least width of the wall around an opening, and of the masonry behind a room's surfaces.
 inline constexpr double kMasonry_m = 0.1;
-/// Between two rooms.
+/// Thickness of the partition between two rooms.
 inline constexpr double kPartition_m = 0.1;
-/// Between the two panes of double glazing.
+/// Distance between the two panes of double glazing.
 inline constexpr double kPaneGap_m = 0.016;
-/// More than this of a frame cannot be covered by leaves that hang at random places in time.
+/// Largest share of a frame that leaves at random places cover within reasonable time.
 inline constexpr double kMostPlantCoverage = 0.95;
 
-/// Where one window stands, with all boxes that make it. z = 0 is the wall's outer face.
+/// The place of one window, with all boxes that make it up. z = 0 is the wall's outer face.
 struct WindowPlan {
   bool is_target = false;
   int column = 0;  ///< Counted from the target's to the viewer's right.
@@ -28,17 +28,17 @@ struct WindowPlan {
   Box frame_hole;
   Box room;
   Box room_shell;
-  /// For all that is random about this window.
+  /// Stream of all random choices for this window.
   RandomStream random{0};
 };
 
-/// Where everything that belongs to the building stands.
+/// The places of everything that belongs to the building.
 struct FacadePlan {
   Box building;
   std::vector<WindowPlan> windows;  ///< The target, if there is one, first.
 };
 
-/// The options must be valid.
+/// Plans the building. The options must be valid.
 FacadePlan PlanFacade(const FacadeOptions& options, const RandomStream& random);
 
 }  // namespace fenestra

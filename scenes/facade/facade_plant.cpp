@@ -14,12 +14,13 @@ using Eigen::Vector3d;
 
 constexpr int kLeavesOfCluster = 40;
 constexpr double kClusterSpread_m = 0.09;  // Standard deviation, sideways and upwards.
-// A leaf's centre is this far before the wall, so that leaves of usual size stay clear of it.
+// Distance of a leaf's centre from the wall: leaves of usual size stay clear of it.
 constexpr double kNearest_m = 0.07;
 constexpr double kDepth_m = 0.12;
 constexpr double kWidthPerLength = 0.65;
 constexpr double kFold = 0.25;  // Height of the sides above the midrib, in widths.
-// Of a leaf's normal from the viewer's direction, standard deviation: leaves face the light.
+// Standard deviation of the angle from a leaf's normal to the viewer's direction: leaves face the
+// light.
 constexpr double kTilt_rad = 0.6;
 constexpr double kDarkestShade = 0.55;
 constexpr double kPixelsPerLeaf = 20.0;
@@ -32,7 +33,7 @@ struct Leaf {
   Vector3d right_W;
 };
 
-// What of the frame's front can still be seen along the normal, pixel by pixel.
+// The parts of the frame's front that are still visible along the normal, pixel by pixel.
 class FrontMap {
  public:
   FrontMap(const WindowPlan& window, double pixel_m) : low_(window.frame.low.head<2>()) {
@@ -52,7 +53,7 @@ class FrontMap {
 
   double Coverage() const { return static_cast<double>(covered_count_) / frame_count_; }
 
-  /// A random place of the frame that is still in sight, or else of the whole front.
+  /// A random place of the frame's visible part or, if there is none, of its whole front.
   Vector2d PlaceInSight(const RandomStream& random) const {
     const auto count = static_cast<double>(in_sight_.size());
     size_t pixel = 0;

@@ -7,9 +7,8 @@
 namespace fenestra {
 
 /// Leaves in clusters before a window's frame. Clusters begin at random places of the frame that
-/// are still in sight, and leaves are added until, seen along the wall's normal, the share
-/// `coverage` of the frame's front (without what stands within it) is covered; the last leaf goes
-/// beyond it by at most its own size.
+/// are still visible. Leaves are added until the share `coverage` of the frame's front is covered,
+/// as seen along the wall's normal; the last leaf exceeds it by at most its own size.
 Mesh MakePlant(const FacadeOptions& options, const WindowPlan& window, const RandomStream& random,
                uint32_t material);
 

@@ -46,7 +46,7 @@ Part LintelOf(const LintelOptions& lintel, const WindowPlan& window) {
           kLintelSolid};
 }
 
-// In the order in which they are built: later ones replace what was there before.
+// The boxes in the order in which they are built: later ones replace earlier ones.
 std::vector<Part> PartsOf(const FacadeOptions& o, const FacadePlan& plan) {
   std::vector<Part> parts{{plan.building, kWallSolid}};
   for (const WindowPlan& window : plan.windows) {
@@ -99,7 +99,7 @@ constexpr double kTargetCell_m = 0.05;
 constexpr double kTargetGrowth = 0.5;
 // Longest edge of a cell's halves over its side: of a square, and a little more for rounding.
 constexpr double kDiagonal = 1.5;
-// Other windows need not be as right as the target.
+// Other windows need not be as accurate as the target.
 constexpr double kOtherCell_m = 0.12;
 constexpr double kOtherGrowth = 1.0;
 constexpr double kBeforeWallCell_m = 0.12;
@@ -111,7 +111,7 @@ std::vector<Detail> DetailsOf(const FacadeOptions& o, const FacadePlan& plan) {
     details.push_back({box, kBeforeWallCell_m, kBeforeWallGrowth, true});
   };
   for (const WindowPlan& window : plan.windows) {
-    // Behind the frame hardly anything is seen from outside.
+    // Little behind the frame can be seen from outside.
     Box box = window.opening;
     box.low.z() = window.frame.low.z();
     details.push_back({box, window.is_target ? kTargetCell_m : kOtherCell_m,
@@ -133,7 +133,7 @@ std::vector<Detail> DetailsOf(const FacadeOptions& o, const FacadePlan& plan) {
   return details;
 }
 
-// From the outline of the box's front, along the wall and along its normal.
+// Distances from the outline of the box's front, along the wall and along its normal.
 double DistanceFrom(const Box& box, const glm::vec3& p) {
   const auto x = static_cast<double>(p.x);
   const auto y = static_cast<double>(p.y);
@@ -147,7 +147,7 @@ double DistanceFrom(const Box& box, const glm::vec3& p) {
 }
 
 double CellAt(const std::vector<Detail>& details, const glm::vec3& p) {
-  // Sums of sizes are rounded: on the front is what is within a micrometre.
+  // Sums of sizes are rounded: points within a micrometre are on the front.
   const bool on_front = p.z > -1e-6f;
   double cell_m = kLargestCell_m;
   for (const Detail& d : details) {
@@ -163,7 +163,7 @@ double CellAt(const std::vector<Detail>& details, const glm::vec3& p) {
 }  // namespace
 
 SolidSurface BuildMasonry(const FacadeOptions& options, const FacadePlan& plan) {
-  // Nobody who sees the facade's front sees the building's other outer faces.
+  // The building's other outer faces cannot be seen by a viewer of the facade's front.
   SolidSurface surface =
       Build(PartsOf(options, plan)).Surface(SolidLattice::Faces::kFrontOfLattice);
   const std::vector<Detail> details = DetailsOf(options, plan);

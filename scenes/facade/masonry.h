@@ -5,7 +5,7 @@
 
 namespace fenestra {
 
-/// What a facade's building is made of.
+/// The solids of which a facade's building consists.
 inline constexpr Solid kWallSolid = 1;
 inline constexpr Solid kFrameSolid = 2;  ///< The target's frame and its mullions.
 inline constexpr Solid kRoomSolid = 3;   ///< The surfaces of the target's room.
@@ -14,9 +14,10 @@ inline constexpr Solid kLintelSolid = 5;
 inline constexpr Solid kOtherFrameSolid = 6;
 inline constexpr Solid kOtherRoomSolid = 7;
 
-/// The surfaces of wall, frames, mullions, sills, lintels and rooms: without cracks, closed but for
-/// the wall's outer edge, and fine where openings and what stands before the wall make the light
-/// vary. The options must be valid and the plan theirs.
+/// The surfaces of wall, frames, mullions, sills, lintels and rooms. They have no cracks and are
+/// closed except for the wall's outer edge. They are finely divided where the light varies: near
+/// openings and behind what stands before the wall. The options must be valid, and the plan must
+/// have been made from them.
 SolidSurface BuildMasonry(const FacadeOptions& options, const FacadePlan& plan);
 
 }  // namespace fenestra

@@ -37,7 +37,7 @@ cv::Mat1f Noise(int cells, const RandomStream& random) {
   return Noise(cells, cells, random.Child("cells", static_cast<uint64_t>(cells)));
 }
 
-// How much of a texel lies within `half_m` of a line at distance `from_line_m`, 0 to 1.
+// Share of a texel that lies within `half_m` of a line at distance `from_line_m`.
 float Covered(double from_line_m, double half_m) {
   return static_cast<float>(std::clamp((half_m - from_line_m) / kTexel_m + 0.5, 0.0, 1.0));
 }

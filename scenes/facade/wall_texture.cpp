@@ -48,7 +48,7 @@ const SrgbEncoder& Encoder() {
   return encoder;
 }
 
-// Zero mean and unit variance, none beyond kMostDeviation.
+// Scales the pattern to zero mean and unit variance, with no value beyond kMostDeviation.
 cv::Mat1f Standardised(cv::Mat1f pattern) {
   // Each round moves mean and variance less; after four they are right to 0.1 %.
   for (int round = 0; round < 4; ++round) {

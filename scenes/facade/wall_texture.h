@@ -15,15 +15,15 @@ namespace fenestra {
 inline constexpr double kMostTextureContrast = 0.4;
 inline constexpr double kMostDeviation = 2.5;
 
-/// Why this wall cannot have its texture, or an empty text: at this contrast its lightest places
-/// would have to reflect more light than they receive.
+/// The reason why this wall cannot have its texture, or an empty text. At too high a contrast the
+/// lightest places would have to reflect more light than they receive.
 std::string TextureObjection(const WallOptions& wall);
 
 /// A wall's texture and the reflectances that belong to it.
 struct TexturedWall {
   Texture texture;
   Material material;    ///< Its mean reflectances, texture considered, are those of the wall.
-  double side_m = 0.0;  ///< Of one copy of the texture on the wall.
+  double side_m = 0.0;  ///< Side of one copy of the texture on the wall.
 };
 
 /// A texture of the wall's contrast (greater than 0), in luminance. Its index in the scene is 0.

@@ -21,12 +21,12 @@ struct SceneCamera {
   CameraModel model;
 };
 
-/// What a glTF file holds, in Fenestra's terms. docs/gltf.md says how the one maps to the other.
+/// The contents of a glTF file in Fenestra's terms. docs/gltf.md describes the mapping.
 struct GltfScene {
   Scene scene;
   std::vector<SceneCamera> cameras;
   std::optional<Sun> sun;
-  /// What the file has and Fenestra leaves out or approximates; one sentence each.
+  /// One sentence for each thing in the file that Fenestra leaves out or approximates.
   std::vector<std::string> notes;
 };
 
@@ -35,15 +35,15 @@ struct GltfReadOptions {
   /// the +z face of its subtree's bounding box in the node's axes does. Without a name, the node
   /// whose extras say `target_window`, if there is one.
   std::optional<std::string> target_node = {};
-  /// Which of the file's scenes. Without it, the file's default one or else the first.
+  /// Index of the scene to be read. Without it, the file's default scene or else the first.
   std::optional<int> scene_index = {};
-  /// glTF gives cameras a field of view and no resolution.
+  /// Image height of all cameras, since glTF states a field of view but no resolution.
   int camera_height_px = 480;
 
-  // A file from outside may claim anything; these bound what reading it costs.
-  size_t max_file_bytes = size_t{1} << 30;      ///< Of each file and of all of them together.
+  // Limits on the cost of reading a file from outside, which may claim anything.
+  size_t max_file_bytes = size_t{1} << 30;      ///< For each file, and for all of them together.
   size_t max_triangles = 20'000'000;            ///< After all instances are placed.
-  size_t max_image_pixels = size_t{256} << 20;  ///< Of all decoded images together.
+  size_t max_image_pixels = size_t{256} << 20;  ///< For all decoded images together.
 };
 
 /// Reads .gltf or .glb (told apart by their content). Throws InputError, which names the file and

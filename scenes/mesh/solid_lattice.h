@@ -20,8 +20,8 @@ struct Box {
 using Solid = uint8_t;
 inline constexpr Solid kAir = 0;
 
-/// The surface between solids and air. Positions are shared by all triangles that meet in them, of
-/// all solids, so that what is done to an edge is done to all its triangles.
+/// The surface between solids and air. Positions are shared by all triangles that meet in them,
+/// whatever their solids, so that a change to an edge reaches all its triangles.
 struct SolidSurface {
   struct Triangle {
     glm::uvec3 corners;  ///< Counter-clockwise as seen from the air.
@@ -32,13 +32,14 @@ struct SolidSurface {
   std::vector<Triangle> triangles;
 };
 
-/// The triangles of one solid. Vertices are shared only between faces that look one way.
+/// The triangles of one solid. Vertices are shared only between faces of one direction.
 Mesh MeshOf(const SolidSurface& surface, Solid solid, const std::string& name, uint32_t material);
 
 /// Sorted coordinates without near duplicates: two of them less than a micrometre apart are one.
 std::vector<float> DistinctBreaks(std::vector<double> coordinates_m);
 
-/// The same, with each gap halved until its cells are not longer than `cell_size` at their middle.
+/// Distinct breaks, with each gap halved until its cells are not longer than `cell_size` at their
+/// middle.
 std::vector<float> GradedBreaks(std::vector<double> fixed_m,
                                 const std::function<double(double)>& cell_size);
 

@@ -4,10 +4,11 @@
 
 namespace fenestra {
 
-/// The scene with all edges at most `longest_edge_m` long, for light that is known at vertices: a
-/// longer edge is halved until it is short enough, wherever it occurs, so that triangles that share
-/// an edge still share it. Texture coordinates, colours and normals are interpolated. Closed meshes
-/// are left as they are: whoever made a solid chose its vertices. Windows stay the same.
+/// The scene with all edges at most `longest_edge_m` long, for light that is known at vertices. A
+/// longer edge is halved in all its triangles until it is short enough, so that triangles that
+/// share an edge still share it. Texture coordinates, colours and normals are interpolated. Closed
+/// meshes stay as they are, since their vertices were chosen where the solids were made. Windows
+/// stay the same.
 ///
 /// Throws InputError unless the length is positive.
 Scene Tessellated(const Scene& scene, double longest_edge_m);

@@ -10,8 +10,8 @@ namespace fenestra {
 struct BoardSceneOptions {
   CalibrationBoard board;
   double white_reflectance = 0.80;  ///< Matt print: 0.8–0.85.
-  double black_reflectance = 0.05;  ///< 0.04–0.05.
-  double wall_reflectance = 0.60;   ///< So that an exposure for all does not burn out the board.
+  double black_reflectance = 0.05;  ///< Matt print: 0.04–0.05.
+  double wall_reflectance = 0.60;   ///< So that an exposure for the scene keeps the board's white.
   double wall_width_m = 12.0;       ///< The wall is centred on the board.
   double wall_height_m = 8.0;
 };
@@ -19,7 +19,8 @@ struct BoardSceneOptions {
 /// X_WG: the board's frame in the world; its centre is the world's origin.
 Pose BoardPose(const CalibrationBoard& board);
 
-/// Throws InputError for a board that cannot be, or does not fit on the wall.
+/// The scene with the board. Throws InputError for an invalid board or one that does not fit on the
+/// wall.
 Scene MakeBoardScene(const BoardSceneOptions& options);
 
 }  // namespace fenestra

@@ -44,7 +44,7 @@ Box Plate(double width_m, double height_m) {
 
 std::vector<float> Breaks(double wall_m, double target_m, double border_m) {
   const double inner_m = 0.5 * target_m - border_m;
-  // Nothing stands before the plane, so its sky light is uniform and the largest cells do.
+  // Nothing stands before the plane, so that its sky light is uniform and large cells suffice.
   return DistinctBreaks(
       {-0.5 * wall_m, -0.5 * target_m, -inner_m, inner_m, 0.5 * target_m, 0.5 * wall_m});
 }

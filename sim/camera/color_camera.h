@@ -22,10 +22,10 @@ struct ColorCameraOptions {
                    .blur_sigma_px = 0.5,
                    .corner_blur_sigma_px = 0.7,
                    .corner_illumination = 0.9};
-  /// Blur in red and blue as multiples of that in green; 1: a lens without colour errors.
+  /// Blur in red and blue as multiples of the blur in green; 1: a lens without colour errors.
   double red_blur = 1.0;
   double blue_blur = 1.0;
-  double electrons_per_lux_s = 2.0e4;  ///< In one channel; assumed.
+  double electrons_per_lux_s = 2.0e4;  ///< Response of one channel; assumed.
   /// Small pixels: 2.8 µm against the 6 µm of the machine-vision camera.
   ImageSensorOptions sensor{.saturation_e = 6000.0,
                             .read_noise_e = 6.0,
@@ -39,10 +39,10 @@ struct ColorCameraOptions {
   double mean_dn = 118.0;
   bool auto_exposure = true;
   double exposure_s = 8e-3;  ///< Used when not automatic.
-  /// Rolling shutter; assumed, as of the infra-red camera: 960 of 1049 rows' times in 1/30 s.
+  /// Rolling shutter; assumed to equal the infra-red camera's: 960 of 1049 rows' times in 1/30 s.
   double readout_s = 30.5e-3;
-  /// Rays through each pixel without an edge in it, and how edges are searched: coarser than for
-  /// the stereo rig, by less than a third of the noise.
+  /// Rays through each pixel without an edge, and lines of the search for edges. Both are coarser
+  /// than for the stereo rig, with errors of less than a third of the noise.
   int samples_per_pixel = 1;
   EdgeLines edge_lines = EdgeLines::kFour;
 };
@@ -52,20 +52,21 @@ CameraModel DesignOf(const ColorCameraOptions& options);
 /// Throws InputError with all faults.
 void Validate(const ColorCameraOptions& options);
 
-/// From radiance in three channels over lens, exposure and noise to sRGB.
+/// Turns radiance in three channels into an sRGB image, by lens, exposure and noise.
 class ColorCamera {
  public:
-  /// X_BK: the camera on a rig that moves so; edge_samples_per_pixel: see RenderOptions.
+  /// X_BK: pose of the camera on a rig with this motion; edge_samples_per_pixel: see RenderOptions.
   ColorCamera(const ColorCameraOptions& options, const Pose& X_BK, const RigMotion& motion,
               int edge_samples_per_pixel);
 
-  /// B, G, R. X_WB: of the rig, in the middle of the image's exposure. Rows are exposed one after
-  /// the other, and what moves meanwhile is blurred.
+  /// An image in B, G, R. X_WB: pose of the rig in the middle of the image's exposure. Rows are
+  /// exposed one after the other, and motion during the exposure blurs the image.
   cv::Mat3b Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                     const RandomStream& shot) const;
 
  private:
-  /// Fixed, or such that the encoded image's mean is mean_dn; B, G, R in electrons per second.
+  /// The exposure time: fixed, or such that the encoded image's mean is mean_dn. The light is B, G,
+  /// R in electrons per second.
   double Exposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const;
   cv::Mat1b Develop(const cv::Mat1f& electrons_per_s, double exposure_s,
                     const RandomStream& noise) const;
@@ -73,7 +74,7 @@ class ColorCamera {
   /// Luminance on the sensor, averaged over each row's exposure.
   QuarterImages LightDuring(double exposure_s, const RayCaster& caster, const Lighting& lighting,
                             const Pose& X_WB, const RandomStream& sampling) const;
-  /// B, G, R, of luminance.
+  /// Photo-electrons in B, G and R for this luminance.
   std::array<cv::Mat1f, 3> ElectronsPerSecond(const QuarterImages& luminance) const;
 
   ColorCameraOptions options_;

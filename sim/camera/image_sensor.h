@@ -24,29 +24,29 @@ struct ImageSensorOptions {
   /// at 550 nm (MT9V022/023/034 data sheets) and the quantum efficiency there.
   double saturation_e = 16000.0;
   double read_noise_e = 25.0;            ///< σ_d: 55–60 dB dynamic range give 16–29 e.
-  double dark_current_e_s = 300.0;       ///< At 25 °C; assumed.
+  double dark_current_e_s = 300.0;       ///< Dark current at 25 °C; assumed.
   double dark_current_doubling_k = 8.0;  ///< T_d; assumed, as silicon has it.
-  double temperature_c = 40.0;           ///< Of the sensor in a closed housing; assumed.
+  double temperature_c = 40.0;           ///< Sensor in a closed housing; assumed.
   double dsnu_e = 20.0;                  ///< Assumed: 10–30 e.
   double prnu = 0.015;                   ///< Assumed: 1–2 %.
   double row_noise_e = 3.0;              ///< Left by the sensor's row-noise correction; assumed.
   int adc_bits = 10;                     ///< MT9V032.
-  int output_bits = 8;                   ///< As the camera is run; at most adc_bits.
-  double black_level_dn = 32.0;          ///< Of the ADC; high enough for dark noise at gain 4.
-  bool noise = true;                     ///< All that differs from image to image.
-  bool fixed_pattern = true;             ///< DSNU and PRNU.
+  int output_bits = 8;                   ///< As the camera is operated; at most adc_bits.
+  double black_level_dn = 32.0;  ///< Black level of the ADC; high enough for dark noise at gain 4.
+  bool noise = true;             ///< Noise that differs from image to image.
+  bool fixed_pattern = true;     ///< DSNU and PRNU.
 };
 
 /// Throws InputError with all faults; `who` names the camera in them.
 void Validate(const ImageSensorOptions& options, const char* who);
 
-/// How an image is exposed.
+/// Exposure of one image.
 struct ExposureSetting {
   double exposure_s = 0.0;
   double gain = 1.0;  ///< Analogue, before the ADC.
 };
 
-/// Exposure: fixed, or chosen by the image's mean: first a longer time, then gain.
+/// Control of the exposure: fixed, or by the image's mean with a longer time first, then gain.
 struct ExposureOptions {
   bool automatic = true;
   double set_point = 0.35;        ///< Mean signal above black, as a fraction of full scale.
@@ -65,7 +65,7 @@ ExposureSetting ChooseExposure(const ExposureOptions& exposure, const ImageSenso
 /// One camera's sensor with its fixed pattern. Const calls are thread-safe.
 class ImageSensor {
  public:
-  /// `camera`: what tells this camera's fixed pattern from others'.
+  /// `camera`: the stream of this camera's fixed pattern.
   ImageSensor(const ImageSensorOptions& options, cv::Size size, const RandomStream& camera);
 
   const ImageSensorOptions& options() const { return options_; }

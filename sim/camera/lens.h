@@ -7,8 +7,7 @@
 
 namespace fenestra {
 
-/// Optics between a scene and its sensor, besides the camera model's distortion, which is part of
-/// the rays.
+/// Optics between a scene and its sensor. Distortion is part of the camera model and its rays.
 struct LensOptions {
   double f_number = 2.8;
   double transmission = 0.9;
@@ -17,7 +16,7 @@ struct LensOptions {
   /// 1.22 λ N = 1.9 µm at f/2.8, is 0.1 px.
   double blur_sigma_px = 0.40;
   double corner_blur_sigma_px = 0.60;
-  /// Share of the light that the lens' barrel lets through to the corners, besides cos⁴.
+  /// Share of the light that reaches the corners through the lens' barrel, besides cos⁴.
   double corner_illumination = 0.9;
 };
 
@@ -35,9 +34,9 @@ double IlluminancePerLuminance(const LensOptions& lens);
 /// ray's angle to the optical axis, times the barrel's, 1 - (1 - corner_illumination) ρ².
 cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens);
 
-/// What pixels gather of an image that a lens has softened: the mean over each pixel's area of the
-/// image convolved with a point spread. The light is known by quarters of pixels: from whole pixels
-/// it would be too late to soften it, and edges along rows would stand up to 0.03 px off.
+/// The image that pixels integrate behind a lens: the mean over each pixel's area of the image
+/// convolved with a point spread. The light must be known by quarters of pixels: blurring whole
+/// pixels would displace edges along rows by up to 0.03 px.
 ///
 /// One kernel over the quarters, of a Gaussian and the pixel's square, has the discrete variance
 /// σ₀² + 1/16, which with the quarters' own 1/48 is that of the optics and the pixel, σ₀² + 1/12.

@@ -7,17 +7,17 @@ namespace fenestra {
 /// Source: onsemi MT9V034/D Rev. 7, Fig. 47, digitised to ±0.005.
 double QuantumEfficiency(double wavelength_nm);
 
-/// What lights the scene.
+/// The spectrum of the light on the scene.
 enum class Illuminant {
   kDaylight,      ///< ASTM G173-03, global: sun and sky at air mass 1.5.
   kIncandescent,  ///< A black body at 2856 K (CIE illuminant A).
 };
 
-/// How a camera's pixel answers light of several wavelengths.
+/// Response of a camera's pixel to light of several wavelengths.
 struct SpectralOptions {
   Illuminant illuminant = Illuminant::kDaylight;
-  /// The lens' filter lets pass what is shorter. 650 nm is the usual infra-red cut filter; 1000 nm
-  /// and more: none.
+  /// Longest wavelength that the lens' filter lets pass. 650 nm is the usual infra-red cut filter;
+  /// from 1000 nm on there is no filter.
   double cut_off_nm = 650.0;
   /// The pixel's quantum efficiency as a multiple of QuantumEfficiency().
   double quantum_efficiency_scale = 1.0;

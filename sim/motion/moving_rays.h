@@ -8,7 +8,7 @@
 
 namespace fenestra {
 
-/// The rays of a camera at a rig's frame B, with a rolling shutter. Its exposure is taken to be
+/// The rays of a camera at a rig's frame B, with a rolling shutter. The exposure is assumed to be
 /// short.
 class MovingRays {
  public:
@@ -16,13 +16,13 @@ class MovingRays {
 
   const CameraModel& camera() const { return camera_; }
   const std::vector<RowBand>& row_bands() const { return row_bands_; }
-  /// Where the camera is while it exposes that band; X_WB: in the middle of the image.
+  /// Pose of the camera while it exposes this band; X_WB: pose in the middle of the image.
   Pose PoseIn(const RowBand& band, const Pose& X_WB) const {
     return PoseAt(X_WB, motion_, band.t_s);
   }
 
-  /// Truths along one ray through each pixel's centre, as its row sees the world; p_BP: the point
-  /// whose sight is tested, moving with the rig.
+  /// Truths along one ray through each pixel's centre, from the camera's pose during its row. p_BP:
+  /// the point whose view of the surfaces is tested; it moves with the rig.
   AovImages CastAovs(const RayCaster& caster, const Pose& X_WB, const Lighting& lighting,
                      const Eigen::Vector3d& p_BP) const;
 
@@ -30,7 +30,7 @@ class MovingRays {
   RigMotion motion_;
   CameraModel camera_;
   std::vector<RowBand> row_bands_;
-  std::vector<RayGrid> rays_;  ///< Of each band.
+  std::vector<RayGrid> rays_;  ///< The rays of each band.
 };
 
 }  // namespace fenestra

@@ -12,7 +12,7 @@ Eigen::Matrix3d Cross(const Eigen::Vector3d& a) {
   return matrix;
 }
 
-// The mean of the rotations by s θ, 0 ≤ s ≤ 1: what turns a velocity in a turning frame into a
+// The mean of the rotations by s θ, 0 ≤ s ≤ 1, which turns a velocity in a turning frame into a
 // displacement. The left Jacobian of SO(3).
 Eigen::Matrix3d MeanRotation(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();

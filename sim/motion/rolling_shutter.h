@@ -9,9 +9,9 @@ namespace fenestra {
 
 /// A camera whose rows are exposed one after the other, on a rig that moves.
 struct RollingShutter {
-  RigMotion motion;  ///< Of the rig.
-  double readout_s =
-      0.0;  ///< From the first row's exposure to the last one's; 0: a global shutter.
+  RigMotion motion;
+  /// Time from the first row's exposure to the last one's; 0: a global shutter.
+  double readout_s = 0.0;
 };
 
 /// Throws InputError unless readout_s is in [0, 1].
@@ -24,19 +24,21 @@ struct RowBand {
   double t_s = 0.0;
 };
 
-/// When row v is exposed, the middle of the image at time 0:
+/// Time at which row v is exposed; the middle of the image is exposed at time 0:
 ///
 ///     t(v) = readout ((v + 1/2) / height - 1/2).
 double RowTime(const RollingShutter& shutter, int height_px, double row);
 
-/// All rows in bands within which the image moves by at most a quarter of a pixel, or of one row;
-/// one band if nothing moves. Presumed: nothing is nearer than 0.5 m.
+/// Divides the rows into bands within which the image moves by at most a quarter of a pixel, or
+/// bands of one row if it moves faster; one band if nothing moves. Assumes that nothing is nearer
+/// than 0.5 m.
 std::vector<RowBand> BandsOf(const RollingShutter& shutter, const CameraModel& camera);
 
-/// Pictures of a camera that moves while its rows are exposed, one after the other, each for
-/// exposure_s: taken at equal steps of time, so that the image moves by at most half a pixel from
-/// one to the next, or at most 64. Row v is the mean of those whose band it is in. Presumed as
-/// above. One picture of all rows if nothing moves.
+/// Pictures that together make the image of a camera whose rows are exposed for exposure_s each,
+/// one after the other, while it moves. They are taken at equal steps of time, between which the
+/// image moves by at most half a pixel, unless that needs more than 64. Row v of the image is the
+/// mean of the pictures whose bands contain it. Assumes as above that nothing is nearer than 0.5 m.
+/// One picture of all rows if nothing moves.
 std::vector<RowBand> PicturesOf(const RollingShutter& shutter, const CameraModel& camera,
                                 double exposure_s);
 

@@ -8,7 +8,7 @@
 
 namespace fenestra {
 
-/// How a rig is calibrated: pairs of pictures of a board, from many sides.
+/// Calibration of a rig: pairs of images of a board from many sides.
 struct BoardSessionOptions {
   CalibrationBoard board;
   int views = 20;
@@ -23,7 +23,7 @@ struct BoardSessionOptions {
 /// Throws InputError with all faults.
 void Validate(const BoardSessionOptions& options);
 
-/// A board and what it takes to render it: made once, for all rigs.
+/// A board with the ray caster of its scene, made once for all rigs.
 class BoardWorld {
  public:
   explicit BoardWorld(const CalibrationBoard& board);
@@ -35,15 +35,15 @@ class BoardWorld {
   std::unique_ptr<const RayCaster> caster_;
 };
 
-/// Where a rig stands for one view: X_LG of the board in the left camera as designed. Size, tilt,
-/// roll and place in the image are uniform, within what both cameras as designed see with 3 % of
-/// the image's width to spare. nullopt if there is no such place: the cameras' views do not
-/// overlap enough for this board.
+/// Draws X_LG, the pose of the board in the left camera as designed, for one view. Size, tilt, roll
+/// and place in the image are uniform, such that both cameras as designed see the board with a
+/// margin of 3 % of the image's width. nullopt if there is no such pose, because the cameras' views
+/// do not overlap enough for this board.
 std::optional<Pose> DrawBoardPose(const StereoCalibration& design,
                                   const BoardSessionOptions& session, const RandomStream& view);
 
-/// Pictures of the board, with the rig's own optics, noise and exposure; not moving. Throws
-/// InputError where the cameras' views do not overlap enough.
+/// Images of the board with the rig's own optics, noise and exposure, while the rig stands still.
+/// Throws InputError if the cameras' views do not overlap enough.
 StereoObservation ShootBoard(const StereoRig& rig, const BoardWorld& world,
                              const BoardSessionOptions& session, const RandomStream& view);
 

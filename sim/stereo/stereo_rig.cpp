@@ -67,7 +67,7 @@ Pose Mounting(const StereoRigOptions& options, const RandomStream& camera) {
   return RandomPose(camera, tolerances.rotation_rad, tolerances.translation_m);
 }
 
-// Where the left image's surface points are in the right one, as differences of their pixels.
+// Positions of the left image's surface points in the right image, as differences of pixels.
 cv::Mat2f MatchesOf(const cv::Mat1f& depth_m, const StereoCalibration& cameras, const Pose& X_RL) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   cv::Mat2f matches(depth_m.size(), cv::Vec2f(kNone, kNone));

@@ -14,12 +14,12 @@
 
 namespace fenestra {
 
-/// How far a rig as built departs from its design: standard deviations of independent normal laws,
-/// for each camera. Assumed: what a workshop and a lens maker's catalogue promise.
+/// Deviations of a rig as built from its design: standard deviations of independent normal laws for
+/// each camera. Assumed from the promises of workshops and lens makers' catalogues.
 struct RigTolerances {
-  double focal_length = 0.01;       ///< Relative; both axes together.
+  double focal_length = 0.01;       ///< Relative, the same for both axes.
   double principal_point_px = 5.0;  ///< Each axis.
-  double distortion = 0.05;         ///< Of each coefficient, relative.
+  double distortion = 0.05;         ///< Relative, for each coefficient.
   double rotation_rad = 3e-3;       ///< About each axis.
   double translation_m = 5e-4;      ///< Along each axis.
 };
@@ -38,12 +38,12 @@ struct StereoRigOptions {
   SpectralOptions spectrum;
   ImageSensorOptions sensor;
   ExposureOptions exposure;
-  bool as_designed = false;  ///< Without any departure; tolerances do not count then.
+  bool as_designed = false;  ///< Whether the rig has no deviations; tolerances have no effect then.
   RigTolerances tolerances;
   RigMotion motion;
-  /// By how much the right camera's exposure is later than the left one's [s].
+  /// Delay of the right camera's exposure after the left one's [s].
   double trigger_skew_s = 0.0;
-  /// Where more than one edge crosses a pixel; see RenderOptions.
+  /// Samples of pixels that more than one edge crosses; see RenderOptions.
   int edge_samples_per_pixel = 256;
 };
 
@@ -53,7 +53,7 @@ void Validate(const StereoRigOptions& options);
 /// The rig as designed, before any tolerance.
 StereoCalibration DesignOf(const StereoRigOptions& options);
 
-/// A pair of pictures with what made them.
+/// A pair of images with their exposure and light.
 struct StereoShot {
   StereoObservation observation;
   ExposureSetting exposure;
@@ -62,7 +62,7 @@ struct StereoShot {
   cv::Mat1f right_e;
 };
 
-/// A rig as it stands after it was built: true cameras and poses, and each camera's fixed pattern.
+/// A rig as it was built: true cameras and poses, and each camera's fixed pattern.
 /// Frame B: origin midway between the cameras as designed, axes of the left camera as designed.
 ///
 /// Both shutters are global. Poses, and with them the ground truth, are those at the middle of the
@@ -80,27 +80,28 @@ class StereoRig {
   StereoRig WithNoise() const;
 
   const StereoRigOptions& options() const { return options_; }
-  /// The truth; what detectors are told is another matter.
+  /// True cameras. Detectors receive a StereoCalibration from CalibratedRig instead.
   const StereoCalibration& cameras() const { return cameras_; }
   const Pose& X_BL() const { return X_BL_; }
-  /// Tells the fixed patterns of this rig's cameras from those of others.
+  /// Identifies the fixed patterns of this rig's cameras.
   uint64_t pattern_key() const { return pattern_key_; }
   Pose X_BR() const { return X_BL_ * cameras_.X_RL.inverse(); }
 
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const RandomStream& shot) const;
-  /// The same with what made it.
+  /// An observation with its exposure and light.
   StereoShot Shoot(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                    const RandomStream& shot) const;
-  /// What optics and sensors make of luminance in the image plane, by quarters of pixels [cd/m²].
+  /// The images that optics and sensors make of luminance in the image plane, given by quarters of
+  /// pixels [cd/m²].
   StereoObservation Develop(const QuarterImages& left, const QuarterImages& right,
                             const RandomStream& shot) const;
   GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
-  /// Of the left camera.
+  /// Per-pixel truth of the left camera.
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
  private:
-  // What does not change when a rig is displaced.
+  // The parts of a camera that do not change when a rig is displaced.
   struct Camera {
     Camera(const CameraModel& model, const StereoRigOptions& options, const RandomStream& own);
     void SetSensor(const ImageSensorOptions& options);
@@ -114,10 +115,10 @@ class StereoRig {
   QuarterImages Light(const Camera& camera, const Pose& X_BC, const RayCaster& caster,
                       const Lighting& lighting, const Pose& X_WB, double t_s, double exposure_s,
                       const RandomStream& sampling) const;
-  /// Photo-electrons per pixel and second, of luminance.
+  /// Photo-electrons per pixel and second for this luminance.
   cv::Mat1f ElectronsPerSecond(const Camera& camera, const QuarterImages& light) const;
   ExposureSetting ExposureFor(const cv::Mat1f& left_electrons_per_s) const;
-  /// Of photo-electrons per pixel and second.
+  /// Exposes both sensors to photo-electrons per pixel and second.
   StereoObservation Expose(const cv::Mat1f& left, const cv::Mat1f& right,
                            const ExposureSetting& exposure, const RandomStream& shot) const;
 

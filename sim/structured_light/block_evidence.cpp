@@ -10,7 +10,7 @@
 namespace fenestra {
 namespace {
 
-// Fields of BlockEvidence: those that a block's own disparity has a part in, and those that it
+// Fields of BlockEvidence: those that depend on a block's own disparity, and those that it
 // has not, which are gathered column by column and then row by row.
 enum OwnField { kEvidence, kMoment, kDisparity, kOwnFields };
 enum BoxField { kDots, kDots2, kAmbient, kSmooth2, kStrongest, kStrongestDisparity, kBoxFields };

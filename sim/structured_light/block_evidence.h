@@ -5,10 +5,10 @@
 
 namespace fenestra {
 
-/// What the pixels of a depth image receive from the projector and from around.
+/// Light that the pixels of a depth image receive from the projector and from the surroundings.
 struct BlockLight {
-  cv::Mat1f dots_dn;       ///< s: of a dot.
-  cv::Mat1f ambient_dn;    ///< a.
+  cv::Mat1f dots_dn;       ///< s: brightness of a dot.
+  cv::Mat1f ambient_dn;    ///< a: ambient light.
   cv::Mat1f disparity_px;  ///< d [px of a 640-wide image]; kNoDisparity where nothing is hit.
   static constexpr float kNoDisparity = 1e6f;
 };
@@ -27,28 +27,29 @@ struct BlockEvidence {
   float strongest_disparity = 0.0f;
 };
 
-/// Gathers blocks whose sides are not whole pixels: the outermost ones count in part.
+/// Computes the evidence of blocks whose sides need not be whole pixels: the outermost pixels count
+/// in part.
 class BlockGatherer {
  public:
   /// Sides in pixels of the images; pattern_mean: m; spread_px: σ.
   BlockGatherer(double width_px, double height_px, double pattern_mean, double spread_px);
 
-  /// Columns or rows from the centre to the outermost pixels of a block.
+  /// Number of columns or rows from the centre to the outermost pixels of a block.
   int reach_u() const { return static_cast<int>(weights_u_.size()) / 2; }
   int reach_v() const { return static_cast<int>(weights_v_.size()) / 2; }
 
-  /// Of blocks around the pixels of row v that lie in the image whole, for the disparities of
-  /// their own centres; the first is that around column reach_u().
+  /// Evidence of all blocks around pixels of row v that lie wholly in the image, for the
+  /// disparities of their own centres. The first block is that around column reach_u().
   std::vector<BlockEvidence> Row(const BlockLight& light, int v) const;
-  /// Of the block around a pixel, for this disparity.
+  /// Evidence of the block around a pixel, for this disparity.
   BlockEvidence At(const BlockLight& light, cv::Point pixel, float disparity_px) const;
 
  private:
-  /// Blocks around `count` pixels from `first` on, for as many disparities.
+  /// Gathers `count` consecutive blocks starting at `first`, one disparity each.
   std::vector<BlockEvidence> Gather(const BlockLight& light, cv::Point first,
                                     const float* disparity_px, int count) const;
 
-  std::vector<float> weights_u_;  ///< Of columns; their sum is 1, as is that of the rows.
+  std::vector<float> weights_u_;  ///< Weights of columns; their sum is 1, as is that of the rows.
   std::vector<float> weights_v_;
   float pattern_mean_;
   float narrowness_;  ///< 1/4σ².
@@ -59,7 +60,8 @@ struct ChanceMatch {
   double deviation;
   double places;  ///< N ≥ 1.
 
-  /// Drawn by the standard normal number ν, if it is more than `enough`; else -1.
+  /// The greatest number, drawn by the standard normal number ν, if it is more than `enough`; else
+  /// -1.
   float Best(float enough, float nu) const;
 };
 

@@ -24,7 +24,7 @@ class DepthRegistrar {
 
   CameraModel depth_;
   Pose X_DK_;
-  RayGrid rays_;  ///< Of the registered camera.
+  RayGrid rays_;  ///< The rays of the registered camera.
   DepthReprojection reprojection_;
 };
 

@@ -6,8 +6,8 @@
 
 namespace fenestra {
 
-/// Between disparity and depth: z = f b/d, for disparities in pixels of the 640-wide image in which
-/// the sensor matches, and what of it the sensor delivers.
+/// Conversion of disparity to depth, z = f b/d, for disparities in pixels of the 640-wide image in
+/// which the sensor matches, with the steps and the range that the sensor delivers.
 struct DisparityRange {
   /// The sensor matches in an image of this width, whatever the width of the depth image [px].
   static constexpr double kImageWidth = 640.0;
@@ -27,24 +27,24 @@ struct DisparityRange {
   double Depth(double disparity_px) const;
 };
 
-/// Where, between steps of half a pixel, the correlation with the pattern is greatest.
+/// Position of the greatest correlation with the pattern between steps of half a pixel.
 ///
 /// The parabola through the logarithms of three correlations would be exact if the correlation of
 /// two displaced patterns were a Gaussian. It is not: their dots are no larger than a pixel, so
 /// that patterns half a pixel apart are sampled differently, and the vertex is drawn by up to 0.06
-/// px towards whole pixels. The same error of the pattern with itself, known beforehand, is taken
-/// off.
+/// px towards whole pixels. The error of the pattern matched with itself is known beforehand
+/// and subtracted.
 class SubpixelVertex {
  public:
   explicit SubpixelVertex(const SampledPattern& pattern);
 
-  /// Offset [px] of the greatest correlation from a step at which it is `score`, by those half a
-  /// pixel before and after it. Even steps are at whole pixels. Without both neighbours above 0,
-  /// or if they are greater, 0.
+  /// Offset [px] of the greatest correlation from a step with the correlation `score`, by those
+  /// half a pixel before and after it. Even steps are at whole pixels. 0 unless both neighbours are
+  /// above 0 and not greater than the score.
   float Offset(bool is_whole_pixel, float before, float score, float after) const;
 
  private:
-  /// What the parabola makes of offsets 0, kSpacing, 2 kSpacing … [px].
+  /// Offsets that the parabola finds for true offsets of 0, kSpacing, 2 kSpacing … [px].
   static constexpr int kOffsets = 7;
   static constexpr float kSpacing = 0.05f;
   using Curve = std::array<float, kOffsets>;

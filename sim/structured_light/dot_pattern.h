@@ -11,9 +11,9 @@ namespace fenestra {
 /// sensor matches.
 ///
 /// Figures: 211 x 165 cells a tile, 3861 dots (11.1 %), as measured on the Kinect's pattern
-/// (A. Reichinger's reconstruction, in M. J. Landau's KinectSimulator), whose windows of 9 x 9 hold
-/// 6 to 12 dots. The arrangement is our own: dots that keep their distance from each other, so that
-/// windows hold 5 to 13, and any two windows of a row within 105 cells differ in 4 cells or more.
+/// (A. Reichinger's reconstruction, in M. J. Landau's KinectSimulator), whose blocks of 9 x 9 hold
+/// 6 to 12 dots. The arrangement is our own: dots keep a distance from each other, so that blocks
+/// hold 5 to 13, and any two blocks of a row within 105 cells differ in 4 cells or more.
 class DotPattern {
  public:
   static constexpr int kTileWidth = 211;
@@ -31,19 +31,19 @@ class DotPattern {
   std::bitset<static_cast<size_t>(kTileWidth) * kTileHeight> dots_;
 };
 
-/// The projector's pattern as pixels of the infra-red camera gather it: dots with a Gaussian
+/// The projector's pattern as the pixels of the infra-red camera sample it: dots with a Gaussian
 /// spread, averaged over the pixel, relative to a dot that is centred on its pixel.
 class SampledPattern {
  public:
   /// dot_sigma_px: the spread [cells].
   explicit SampledPattern(double dot_sigma_px);
 
-  /// A pixel that is centred on this place of the pattern [cells]. Rows of pixels are rows of
-  /// cells: camera and projector are rectified.
+  /// Value of a pixel that is centred on this place of the pattern [cells]. Rows of pixels are rows
+  /// of cells, since camera and projector are rectified.
   float At(double column, int row) const;
 
-  /// Of the pattern that is displaced by this along its rows [cells], over pixels at whole cells.
-  /// Dots that fall between two pixels stand out less: the variance depends on the displacement.
+  /// Moments of the pattern that is displaced along its rows [cells], over pixels at whole cells.
+  /// The variance depends on the displacement, since dots between two pixels have less contrast.
   struct Moments {
     double mean;
     double variance;
@@ -56,7 +56,7 @@ class SampledPattern {
   static constexpr int kReach = 2;
   static constexpr int kStepsPerCell = 64;
   float SpreadAt(double offset) const;
-  /// A tile, as pixels at whole cells gather the pattern that is displaced by this [cells].
+  /// A tile of the pattern that is displaced by this [cells], sampled by pixels at whole cells.
   cv::Mat1f Displaced(double displacement) const;
 
   std::array<float, 2 * (kReach + 1) * kStepsPerCell + 2> spread_{};

@@ -9,7 +9,7 @@
 
 namespace fenestra {
 
-/// How bright dots and ambient light are in the infra-red image [10-bit DN], and its noise. M. J.
+/// Brightness of dots and ambient light in the infra-red image [10-bit DN], and its noise. M. J.
 /// Landau et al., "Simulating Kinect infrared and depth images", 2015:
 ///
 ///     s = s₁ (ρ / 0.8) cos θ_P / r_P² T²         of a dot; r_P: distance to the projector [m]
@@ -36,15 +36,16 @@ struct InfraredOptions {
 /// Throws InputError with all faults.
 void Validate(const InfraredOptions& options);
 
-/// What the infra-red camera receives at one pixel [DN]. Nothing where nothing is hit.
+/// Light that the infra-red camera receives at one pixel [DN]; none if no surface is hit.
 struct InfraredLight {
-  double dot_dn = 0.0;  ///< At the centre of a dot; 0 where the projector is not in sight.
+  double dot_dn = 0.0;  ///< At the centre of a dot; 0 where the projector is hidden.
   double ambient_dn = 0.0;
-  double cos_projector = 0.0;  ///< Of the angle at which dots arrive; 0 if they do not.
+  double cos_projector = 0.0;  ///< Cosine of the dots' angle of incidence; 0 if none arrive.
 };
 
-/// `aovs`: truths along one ray through each pixel's centre, with the projector as the point in
-/// sight; `ray`: of that pixel, z = 1; p_CP: the projector, at +x of the camera.
+/// The light of a pixel. `aovs`: truths along one ray through each pixel's centre, with the
+/// projector as the point whose view is tested; `ray`: the pixel's ray, z = 1; p_CP: the projector,
+/// at +x of the camera.
 InfraredLight InfraredLightAt(const InfraredOptions& options, const AovImages& aovs,
                               cv::Point pixel, const Eigen::Vector3d& ray,
                               const Eigen::Vector3d& p_CP);

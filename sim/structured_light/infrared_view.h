@@ -18,25 +18,25 @@ struct PixelParts {
   std::vector<cv::Point> pixels;
   AovImages aovs;  ///< Of the rays in turn, row by row: kPerPixel for each pixel.
 
-  /// Where a part's truths are in `aovs`.
+  /// Position of a part's truths in `aovs`.
   cv::Point PlaceOf(size_t pixel, int part) const {
     const int ray = static_cast<int>(pixel) * kPerPixel + part;
     return {ray % aovs.depth_m.cols, ray / aovs.depth_m.cols};
   }
-  /// From the pixel's centre to the part's ray [px]. Along u and along v each part is in an eighth
-  /// of the pixel of its own.
+  /// Offset of the part's ray from the pixel's centre [px]. Along u and along v, each part is in
+  /// its own eighth of the pixel.
   static Eigen::Vector2d OffsetOf(int part);
 };
 
-/// What an infra-red camera sees: the truths along one ray through each pixel's centre, and along
-/// several where outlines or shadows cross pixels.
+/// The view of an infra-red camera: truths along one ray through each pixel's centre, and along
+/// several rays where outlines or shadows cross pixels.
 struct InfraredView {
   AovImages aovs;
   std::vector<PixelParts> parts;
 };
 
 /// Casts the rays of an infra-red camera, which is the rig's frame. Frame C: the camera; p_CP: the
-/// projector. X_WC: in the middle of the image, if the rig moves.
+/// projector. X_WC: the pose in the middle of the image, if the rig moves.
 class InfraredRays {
  public:
   /// `camera`: without distortion.
@@ -44,7 +44,7 @@ class InfraredRays {
 
   const CameraModel& camera() const { return rays_.camera(); }
   cv::Size size() const { return {camera().width_px(), camera().height_px()}; }
-  /// Through any place of the image, z = 1.
+  /// The ray through any place of the image, z = 1.
   Eigen::Vector3d RayAt(double u_px, double v_px) const;
 
   InfraredView Cast(const RayCaster& caster, const Pose& X_WC, const Lighting& lighting,
@@ -59,9 +59,9 @@ class InfraredRays {
   RayGrid few_rays_;
 };
 
-/// The pixels of which a neighbour sees another object or a jump in depth, is in the shadow of the
-/// sun or of the projector or is not, in order. A jump: of more than a quarter of a pixel of
-/// disparity, f b (1/z - 1/z'); `fb`: f b [px m].
+/// The pixels next to an outline or a shadow, in order: those with a neighbour that sees another
+/// object, or another depth by more than a quarter of a pixel of disparity, f b (1/z - 1/z'), or
+/// that differs in being in the shadow of the sun or of the projector. `fb`: f b [px m].
 std::vector<cv::Point> CrossedPixels(const AovImages& aovs, double fb);
 
 }  // namespace fenestra

@@ -12,7 +12,7 @@ namespace fenestra {
 /// Depth from an infra-red image of the projected dots, as the sensor itself finds it.
 class MatchedDepth {
  public:
-  /// `depth`: the camera whose pixels the depth image has. The infra-red image is `scale` times as
+  /// `depth`: the camera of the depth image's pixels. The infra-red image is `scale` times as
   /// wide and high; depth pixel (u, v) is its pixel (scale u, scale v).
   MatchedDepth(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                const CameraModel& depth, int scale, double baseline_m, const DisparityRange& range,
@@ -29,7 +29,7 @@ class MatchedDepth {
                             const RandomStream& shot, const RandomStream& image_noise) const;
 
  private:
-  /// Why the infra-red image's pixel has no match.
+  /// Reason why the infra-red image's pixel has no match.
   NoReturn Reason(const AovImages& aovs, cv::Point pixel, const PatternMatches& matches) const;
 
   InfraredOptions infrared_;

@@ -11,7 +11,7 @@
 
 namespace fenestra {
 
-/// Why a depth pixel has no return; for truth only, detectors never see it.
+/// Reason why a depth pixel has no return. It is part of the truth; detectors never see it.
 enum class NoReturn : unsigned char {
   kNone = 0,  ///< There is a return.
   kNoSurface,
@@ -22,20 +22,21 @@ enum class NoReturn : unsigned char {
   kSaturated,  ///< Ambient light alone saturates the infra-red image.
   kNoMatch,    ///< Dots can be seen, but the block is not recognised: it straddles an edge.
   kBorder,     ///< The block leaves the infra-red image.
-  /// Registered depth only: the depth camera sees something else there, or its pixels leave a gap.
+  /// In registered depth only: the depth camera sees something else there, or its pixels leave a
+  /// gap.
   kNotRegistered,
 };
 
-/// A depth image with its reasons.
+/// A depth image with the reasons of its holes.
 struct ExplainedDepth {
   DepthImage depth;
   cv::Mat1b no_return;  ///< NoReturn.
-  /// What MatchedDepth matched: the infra-red image, 10 bits; empty for formulae. Of several images
-  /// the last one.
+  /// The infra-red image in which MatchedDepth matched, 10 bits, of several images the last one;
+  /// empty for ParametricDepth.
   cv::Mat1w infrared = {};
 };
 
-/// Tells why a block was not matched, from what its central pixel sees.
+/// Determines why a block was not matched from the view of its central pixel.
 class MissingReturn {
  public:
   /// Keeps references. `camera`: a pinhole; p_CP: the projector.

@@ -16,21 +16,21 @@ namespace fenestra {
 
 /// Noise of the parametric model, in pixels of a 640-wide image.
 struct ParametricDepthOptions {
-  /// Standard deviations of the disparity before quantisation: what the laser's speckle and the
-  /// place within a pixel make, the same in every image of a view; and what noise makes of blocks
-  /// whose dots stand out of it by its own standard deviation. Both fitted to MatchedDepth before
-  /// white walls at 0.8 to 4 m.
+  /// Standard deviations of the disparity before quantisation: by the laser's speckle and the place
+  /// within a pixel, the same in every image of a view; and by noise, in blocks whose dots exceed
+  /// it by its own standard deviation. Both fitted to MatchedDepth before white walls at 0.8 to 4
+  /// m.
   double fixed_disparity_noise_px = 0.03;
   double temporal_disparity_noise_px = 0.28;
-  /// Of where a block's evidence is centred: outlines lie that far from where they are seen
-  /// (Barron & Handa, simkinect: 0.5).
+  /// Standard deviation of the centre of a block's evidence: outlines are displaced by that (Barron
+  /// & Handa, simkinect: 0.5).
   double lateral_noise_px = 0.5;
 };
 
 /// Throws InputError with all faults.
 void Validate(const ParametricDepthOptions& options);
 
-/// Depth from what blocks of the infra-red image would hold, without making the image.
+/// Depth from the expected contents of the infra-red image's blocks, without making the image.
 ///
 /// Pixel i of the block around a depth pixel receives dots of strength s_i at disparity d_i and
 /// ambient light a_i. With a pattern of mean m and variance v (SampledPattern, displaced by d),
@@ -81,16 +81,16 @@ class ParametricDepth {
     return static_cast<float>(matching_.block_width_px * matching_.block_height_px);
   }
   BlockLight LightOf(const AovImages& aovs) const;
-  /// Of the block with the pattern at this disparity [px at 640].
+  /// Match of the block with the pattern at this disparity [px at 640].
   Match MatchAt(const BlockEvidence& block, float disparity_px) const;
-  /// Of a whole block: what it holds besides the match and noise, over what the match explains.
+  /// Variance of a whole block besides match and noise, over the variance that the match explains.
   float BesidesIn(const Phase& phase) const;
-  /// The correlation with noise.
+  /// The correlation as measured, with noise.
   float Measured(const Match& match, const Noise& noise) const;
   /// The best correlation of all wrong places if it is more than `enough`, or else -1.
   float BestByChance(const Match& match, float enough, const Noise& noise) const;
   bool IsAccepted(const Match& match, float measured, float rival, const Noise& noise) const;
-  /// [px at 640]
+  /// Error of the disparity [px at 640].
   float DisparityError(const Match& match, float measured, const Noise& noise) const;
   /// Disparity after noise [px at 640], or NaN.
   float Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,

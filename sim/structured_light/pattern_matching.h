@@ -9,7 +9,7 @@
 
 namespace fenestra {
 
-/// How the sensor finds its pattern in an infra-red image. Blocks of 9 x 9 or 9 x 7 pixels, a
+/// The sensor's search for its pattern in an infra-red image. Blocks of 9 x 9 or 9 x 7 pixels, a
 /// search over 64 px and results in 1/8 px are what ROS kinect_calibration/technical infers.
 struct PatternMatchingOptions {
   /// Disparities from that of infinite distance to this are searched, in pixels of a 640-wide
@@ -18,18 +18,19 @@ struct PatternMatchingOptions {
   double search_px = 64.0;
   int block_width_px = 9;   ///< Odd, 3 to 15.
   int block_height_px = 9;  ///< Odd, 3 to 15.
-  /// A match counts if its correlation coefficient is at least this, of blocks of 81 pixels chance
-  /// has a standard deviation of 1/9. Chosen.
+  /// A match counts if its correlation coefficient is at least this. By chance, coefficients of
+  /// blocks of 81 pixels have a standard deviation of 1/9. Chosen.
   double least_correlation = 0.5;
-  /// And if no other place more than a pixel away comes so near to it. Chosen.
+  /// A match must exceed the coefficients of all places more than a pixel away by this. Chosen.
   double least_lead = 0.15;
-  /// And if what it leaves unexplained, besides the noise, is no more than this share of what it
-  /// explains: all dots of the block are there. Chosen, above what laser speckle leaves.
+  /// The variance that a match leaves unexplained, besides noise, must be no more than this share
+  /// of the variance that it explains: all dots of the block are there. Chosen, above the effect of
+  /// laser speckle.
   double most_unexplained = 0.3;
-  /// Or else if the centre of its evidence lies within this share of the block's width from where
-  /// that of the whole pattern would lie. A block that a shadow cuts off has its evidence in what
-  /// is left of it, a quarter of the width aside when that is one half: with 1/4, a surface ends
-  /// where its block's centre leaves it, and shadows are as wide as they are.
+  /// Otherwise, the centre of its evidence must lie within this share of the block's width from the
+  /// centre of the whole pattern. If a shadow cuts off half of a block, the evidence of the other
+  /// half is a quarter of the width off: with 1/4, a surface ends where the block's centre leaves
+  /// it, and shadows have their true width.
   double most_off_centre = 0.25;
 
   /// The largest disparity that is searched [px of a 640-wide image]: with room for noise, and for
@@ -58,15 +59,15 @@ class PatternMatcher {
   static constexpr double kMostDisparity_px = 1000.0;
 
   /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
-  /// `infrared`: the noise that is known of the image.
+  /// `infrared`: the known noise of the image.
   PatternMatcher(const PatternMatchingOptions& options, const InfraredOptions& infrared,
                  const SampledPattern& pattern, cv::Size image, double least_px, double most_px);
 
-  /// `image`: 10 bits. Blocks that leave it are not matched, nor are rows but every `row_step`th,
-  /// the first one among them.
+  /// Matches an image of 10 bits. Blocks that leave it are not matched. Of the rows, only every
+  /// `row_step`th is matched, beginning with the first.
   PatternMatches Match(const cv::Mat1w& image, int row_step = 1) const;
 
-  /// What is known of each pixel of a row while disparities are tried one after the other.
+  /// Best scores of the pixels of a row while disparities are tried one after the other.
   struct Best {
     float* score;   ///< The best one,
     float* step;    ///< where it was, in half pixels,
@@ -77,10 +78,10 @@ class PatternMatcher {
   };
 
  private:
-  /// The place at which pixel i of a row matches, from the least disparity on [px].
+  /// The disparity at which pixel i of a row matches, less the least disparity [px].
   std::optional<float> Accept(const Best& best, int i) const;
-  /// Whether all dots of a pixel's block are there, as far as noise lets tell; `mean` and
-  /// `inverse_spread` are of the image's block.
+  /// Whether all dots of a pixel's block are there, as far as the noise permits. `mean` and
+  /// `inverse_spread` are those of the image's block.
   bool IsWhole(float correlation, double mean, double inverse_spread) const;
   /// Whether the match at this step rests on dots around the pixel rather than on one side of it.
   bool IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean, int step) const;

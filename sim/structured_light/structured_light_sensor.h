@@ -18,7 +18,7 @@
 
 namespace fenestra {
 
-/// How depth comes about.
+/// The model of the depth measurement.
 enum class DepthModel {
   kParametric,  ///< From what windows would hold, by formulae; see ParametricDepth. Fast.
   kMatched,     ///< An infra-red image of the dots, searched for the pattern; see MatchedDepth.
@@ -47,7 +47,7 @@ struct StructuredLightOptions {
   DepthModel depth_model = DepthModel::kParametric;
   InfraredOptions infrared;
   ParametricDepthOptions parametric;
-  PatternMatchingOptions matching;  ///< Of both models.
+  PatternMatchingOptions matching;  ///< Options of both models.
   /// Width of the infra-red image in which kMatched matches: a multiple of the depth image's. Depth
   /// pixels are those of every so many columns and rows.
   int infrared_width_px = 640;
@@ -78,22 +78,22 @@ class StructuredLightSensor {
   const StructuredLightOptions& options() const { return options_; }
   const RgbdCalibration& nominal() const { return nominal_; }
 
-  /// The camera whose pixels the depth image has, and the colour camera.
+  /// Poses of the camera of the depth image's pixels, and of the colour camera.
   Pose X_WD(const Pose& X_WB) const;
   Pose X_WK(const Pose& X_WB) const;
 
   RgbdObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                           const RandomStream& shot) const;
   GroundTruth Truth(const Scene& scene, const Pose& X_WB) const;
-  /// Of the depth camera.
+  /// Per-pixel truth of the depth camera.
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
-  /// The depth image with its reasons; Observe's depth is the same.
+  /// The depth image with the reasons of its holes; Observe's depth is the same.
   ExplainedDepth ObserveDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                               const RandomStream& shot) const;
 
  private:
-  /// As the infra-red camera sees it.
+  /// The mean of several images in the infra-red camera's view.
   ExplainedDepth AverageDepth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                               const RandomStream& shot) const;
   ExplainedDepth OneImage(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
@@ -104,7 +104,7 @@ class StructuredLightSensor {
   std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const MatchedDepth>>
       depth_model_;
   ColorCamera color_;
-  RayGrid depth_rays_;  ///< Of the depth image.
+  RayGrid depth_rays_;  ///< The rays of the depth image.
   std::optional<DepthRegistrar> registrar_;
 };
 

@@ -14,16 +14,16 @@
 
 namespace fenestra {
 
-/// A window as it truly stands before the scored camera C.
+/// The true pose and size of a window before the scored camera C.
 struct WindowTruth {
   Eigen::Vector3d p_CO;
   std::array<Eigen::Vector3d, 4> p_CV;  ///< Top left, top right, bottom right, bottom left.
-  Eigen::Vector3d normal_C;             ///< Out of the wall.
+  Eigen::Vector3d normal_C;             ///< Points out of the wall.
   double width_m;
   double height_m;
 };
 
-/// What is true of one observation. C is the true, unrectified left camera (stereo) or the true
+/// The truth of one observation. C is the true, unrectified left camera (stereo) or the true
 /// camera that the depth image's pixels belong to (RGB-D).
 struct GroundTruth {
   Pose X_WC;
@@ -36,13 +36,13 @@ struct GroundTruth {
 
 WindowTruth TruthOf(const TargetWindow& window, const Pose& X_WC);
 
-/// A camera where it truly stands.
+/// A camera with its true pose.
 struct PlacedCamera {
   CameraModel camera;
   Pose X_WC;
 };
 
-/// The truth for the scored camera at X_WC; `cameras` are all whose images the target must be in.
+/// The truth for the scored camera at X_WC. `cameras` are all cameras that must see the target.
 GroundTruth MakeGroundTruth(const Scene& scene, const Pose& X_WC,
                             std::span<const PlacedCamera> cameras);
 
@@ -53,11 +53,11 @@ struct TruthImages {
   Pose X_WC;
   /// `sees_point` is the view of the right camera (stereo) or of the projector (RGB-D).
   AovImages aovs;
-  Band band;           ///< What `radiance` measures.
+  Band band;           ///< The quantity of `radiance`.
   cv::Mat1f radiance;  ///< Before lens and sensor; see Band.
-  /// What a matcher should find [px]: (u_L − u_R, v_L − v_R) of the surface point between the true,
-  /// unrectified cameras (stereo), or f b / z between infra-red camera and projector (RGB-D). NaN
-  /// where nothing is hit or the point projects outside the right image.
+  /// The true disparity [px], for matchers: (u_L − u_R, v_L − v_R) of the surface point between the
+  /// true, unrectified cameras (stereo), or f b / z between infra-red camera and projector (RGB-D).
+  /// NaN where nothing is hit or the point projects outside the right image.
   cv::Mat2f disparity_px;
 };
 

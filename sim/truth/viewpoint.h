@@ -4,15 +4,15 @@
 
 namespace fenestra {
 
-/// Where a sensor rig stands and looks, relative to a window. The rig's frame B has a camera's
+/// Position and direction of a sensor rig relative to a window. The rig's frame B has a camera's
 /// axes: +x right, +y down, +z forward.
 struct Viewpoint {
-  double distance_m = 2.0;  ///< From the window's centroid to the rig's origin.
+  double distance_m = 2.0;  ///< Distance from the window's centroid to the rig's origin.
   /// The rig sits on the sphere around the centroid: at zero, straight in front of the window.
   double azimuth_rad = 0.0;    ///< Towards the window's +x (the viewer's right).
   double elevation_rad = 0.0;  ///< Upwards.
-  /// Added to looking straight at the centroid with a level horizon, in this order and each about
-  /// the rig's own axes: yaw about +y (to the right), pitch about +x (up), roll about +z
+  /// Rotations from looking straight at the centroid with a level horizon, in this order and each
+  /// about the rig's own axes: yaw about +y (to the right), pitch about +x (up), roll about +z
   /// (clockwise as the camera's user sees it).
   double yaw_rad = 0.0;
   double pitch_rad = 0.0;

@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-const std::filesystem::path kRoot = FENESTRA_SOURCE_DIR;
+const std::filesystem::path kRepository = FENESTRA_SOURCE_DIR;
 
 // More than somebody can hold in mind while looking for a thing.
 constexpr size_t kMostUnitsOfAFolder = 25;
@@ -36,7 +36,7 @@ constexpr double kMostShortFiles = 0.15;
 constexpr int kSourceOfWeight = 150;
 
 std::vector<SourceFile> ProductSources() {
-  return ReadSources(kRoot, {"core", "vision", "scenes", "renderers", "sim", "experiments"});
+  return ReadSources(kRepository, {"core", "vision", "scenes", "renderers", "sim", "experiments"});
 }
 
 std::set<std::string> Paths(const std::vector<SourceFile>& sources) {
@@ -163,7 +163,7 @@ TEST(LayoutTest, LongFilesAndFragmentsAreCounted) {
 }
 
 TEST(LayoutTest, SourcesOfWeightHaveATestOfTheirName) {
-  const std::set<std::string> tests = Paths(ReadSources(kRoot, {"tests"}));
+  const std::set<std::string> tests = Paths(ReadSources(kRepository, {"tests"}));
   EXPECT_THAT(UntestedSourcesOfWeight(ProductSources(), tests), IsEmpty());
 }
 
@@ -177,7 +177,7 @@ TEST(LayoutTest, ASourceOfWeightWhoseTestStandsElsewhereIsNamed) {
 }
 
 TEST(LayoutTest, ExperimentsHasFoldersOnly) {
-  EXPECT_THAT(FilesDirectlyIn(kRoot / "experiments"), ElementsAre("CMakeLists.txt"));
+  EXPECT_THAT(FilesDirectlyIn(kRepository / "experiments"), ElementsAre("CMakeLists.txt"));
 }
 
 TEST(LayoutTest, AFileBesideTheFoldersIsFound) {

@@ -10,7 +10,7 @@
 #include "experiments/study_file/study_reader.h"
 #include "experiments/trial/cell_runner.h"
 #include "vision/detector_registry.h"
-#include "vision/rgbd/paper/dominant_plane.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 #include "vision/rgbd/paper/paper_rgbd.h"
 #include "vision/stereo/paper/paper_stereo.h"

@@ -1,9 +1,11 @@
+#include "renderers/ray_caster.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
 #include <thread>
 
-#include "renderers/ray_caster.h"
+#include "core/io/input_error.h"
 #include "scenes/facade/facade.h"
 #include "tests/renderers/test_scenes.h"
 
@@ -67,6 +69,20 @@ TEST(RayCaster, InstructionSetsDifferByRoundingOnly) {
     EXPECT_LT(largest, 0.02 * brightest);
     EXPECT_LT(beyond_rounding, static_cast<int>(best.total()) / 200);
   }
+}
+
+TEST(RenderOptions, AllFaultsAreReportedAtOnce) {
+  try {
+    Validate(RenderOptions{.samples_per_pixel = 7, .edge_samples_per_pixel = 5});
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.faults().size(), 3u) << error.what();
+  }
+}
+
+TEST(RayCasterOptions, BouncesOutOfRangeAreRefused) {
+  EXPECT_THROW(RayCaster(MakeFacade({}), {.bounces = -1}), InputError);
+  EXPECT_THROW(RayCaster(MakeFacade({}), {.bounces = 1001}), InputError);
 }
 
 }  // namespace

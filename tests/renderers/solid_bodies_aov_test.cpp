@@ -16,8 +16,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kPi = std::numbers::pi;
-
 Scene SolidBox(const Box& box) {
   std::array<std::vector<float>, 3> breaks;
   for (int axis = 0; axis < 3; ++axis) {
@@ -95,8 +93,8 @@ Scene Ball(const Vector3d& centre, double radius, int parallels) {
   const int meridians = 2 * parallels;
   for (int i = 0; i <= parallels; ++i) {
     for (int j = 0; j <= meridians; ++j) {
-      const double polar = kPi * i / parallels;
-      const double azimuth = 2.0 * kPi * (j % meridians) / meridians;
+      const double polar = std::numbers::pi * i / parallels;
+      const double azimuth = 2.0 * std::numbers::pi * (j % meridians) / meridians;
       const Vector3d n(std::sin(polar) * std::sin(azimuth), std::cos(polar),
                        std::sin(polar) * std::cos(azimuth));
       const Vector3d p = centre + radius * n;
@@ -127,7 +125,7 @@ TEST(Aovs, OfABallAreTheSpheresWithinItsFacets) {
   const RayGrid rays(CameraModel::Pinhole(200, 160, 150.0));
   const Pose X_WC = FacingTheWall({0.3, 0.1, 1.5});
   const AovImages aovs = caster.CastAovs(rays, X_WC, Lighting{}, {});
-  const double half_angle = 0.5 * kPi / kParallels;
+  const double half_angle = 0.5 * std::numbers::pi / kParallels;
   const double sagitta = 2.0 * kRadius * (1.0 - std::cos(half_angle));
   int hits = 0;
   for (int v = 0; v < 160; ++v) {
@@ -179,7 +177,9 @@ TEST(Radiance, OfASmoothBallIsThatOfASphere) {
       ++compared;
       // Linear interpolation over facets of 4.5 degrees: a²/8 = 0.0008; four samples in a pixel of
       // 1.5 degrees leave 0.005.
-      EXPECT_NEAR(image(v, u), 0.5 / kPi * 1e4 * cosine, 0.5 / kPi * 1e4 * 0.012) << u << ", " << v;
+      EXPECT_NEAR(image(v, u), 0.5 / std::numbers::pi * 1e4 * cosine,
+                  0.5 / std::numbers::pi * 1e4 * 0.012)
+          << u << ", " << v;
     }
   }
   EXPECT_GT(compared, 1000);

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <opencv2/calib3d.hpp>
 
 #include "core/io/input_error.h"
+#include "vision/calibration/initial_pair.h"
 
 namespace fenestra {
 namespace {
@@ -15,127 +14,6 @@ namespace {
 constexpr size_t kFewestShared = 6;
 constexpr size_t kFewestViews = 3;
 constexpr double kLargestFocalDeviation = 0.05;
-
-// Corners on the board and in the image, as OpenCV expects them.
-struct PointPairs {
-  std::vector<cv::Point3f> on_board;
-  std::vector<cv::Point2f> in_image;
-};
-
-cv::Point3f OnBoard(const CalibrationBoard& board, int id) {
-  const Eigen::Vector3d p_GQ = board.Corner(id);
-  return {static_cast<float>(p_GQ.x()), static_cast<float>(p_GQ.y()), 0.0f};
-}
-
-cv::Point2f InImage(const BoardCorner& corner) {
-  return {static_cast<float>(corner.pixel.x()), static_cast<float>(corner.pixel.y())};
-}
-
-PointPairs PairsOf(const std::vector<BoardCorner>& corners, const CalibrationBoard& board) {
-  PointPairs pairs;
-  for (const BoardCorner& corner : corners) {
-    pairs.on_board.push_back(OnBoard(board, corner.id));
-    pairs.in_image.push_back(InImage(corner));
-  }
-  return pairs;
-}
-
-// Result of cv::calibrateCamera for one camera.
-struct SingleCamera {
-  cv::Matx33d matrix;
-  cv::Mat distortion;
-  std::vector<Pose> X_CG;
-};
-
-Pose PoseOf(const cv::Mat& rotation_vector, const cv::Mat& translation) {
-  const cv::Vec3d r(rotation_vector);
-  const cv::Vec3d t(translation);
-  return Pose(RotationFromVector({r[0], r[1], r[2]}), {t[0], t[1], t[2]});
-}
-
-template <typename CornersOf>
-SingleCamera CalibrateSingle(const std::vector<NamedView>& views, const CalibrationBoard& board,
-                             cv::Size size, const AdjustmentOptions& options,
-                             CornersOf corners_of) {
-  std::vector<std::vector<cv::Point3f>> on_board;
-  std::vector<std::vector<cv::Point2f>> in_image;
-  for (const NamedView& view : views) {
-    PointPairs pairs = PairsOf(corners_of(view), board);
-    on_board.push_back(std::move(pairs.on_board));
-    in_image.push_back(std::move(pairs.in_image));
-  }
-  SingleCamera camera;
-  cv::Mat matrix;
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> translations;
-  const int flags = options.free_k3 ? 0 : cv::CALIB_FIX_K3;
-  cv::calibrateCamera(on_board, in_image, size, matrix, camera.distortion, rotations, translations,
-                      flags);
-  camera.matrix = matrix;
-  for (size_t i = 0; i < rotations.size(); ++i) {
-    camera.X_CG.push_back(PoseOf(rotations[i], translations[i]));
-  }
-  return camera;
-}
-
-CameraModel ModelOf(const SingleCamera& camera, cv::Size size) {
-  const auto d = [&](int i) { return camera.distortion.at<double>(i); };
-  return CameraModel({.width_px = size.width,
-                      .height_px = size.height,
-                      .fx_px = camera.matrix(0, 0),
-                      .fy_px = camera.matrix(1, 1),
-                      .cx_px = camera.matrix(0, 2),
-                      .cy_px = camera.matrix(1, 2),
-                      .distortion = {.k1 = d(0), .k2 = d(1), .p1 = d(2), .p2 = d(3), .k3 = d(4)}});
-}
-
-// The corners of a view that both cameras saw.
-struct SharedCorners {
-  std::vector<cv::Point3f> on_board;
-  std::vector<cv::Point2f> left;
-  std::vector<cv::Point2f> right;
-};
-
-SharedCorners SharedBy(const BoardView& view, const CalibrationBoard& board) {
-  std::map<int, cv::Point2f> right;
-  for (const BoardCorner& corner : view.right) right[corner.id] = InImage(corner);
-  SharedCorners shared;
-  for (const BoardCorner& corner : view.left) {
-    const auto match = right.find(corner.id);
-    if (match == right.end()) continue;
-    shared.on_board.push_back(OnBoard(board, corner.id));
-    shared.left.push_back(InImage(corner));
-    shared.right.push_back(match->second);
-  }
-  return shared;
-}
-
-Pose RelativePose(const std::vector<NamedView>& views, const CalibrationBoard& board,
-                  const SingleCamera& left, const SingleCamera& right, cv::Size size) {
-  std::vector<std::vector<cv::Point3f>> on_board;
-  std::vector<std::vector<cv::Point2f>> in_left;
-  std::vector<std::vector<cv::Point2f>> in_right;
-  for (const NamedView& view : views) {
-    SharedCorners shared = SharedBy(view.corners, board);
-    on_board.push_back(std::move(shared.on_board));
-    in_left.push_back(std::move(shared.left));
-    in_right.push_back(std::move(shared.right));
-  }
-  cv::Mat left_matrix(left.matrix);
-  cv::Mat right_matrix(right.matrix);
-  cv::Mat left_distortion = left.distortion.clone();
-  cv::Mat right_distortion = right.distortion.clone();
-  cv::Mat R;
-  cv::Mat T;
-  cv::Mat essential;
-  cv::Mat fundamental;
-  cv::stereoCalibrate(on_board, in_left, in_right, left_matrix, left_distortion, right_matrix,
-                      right_distortion, size, R, T, essential, fundamental,
-                      cv::CALIB_FIX_INTRINSIC);
-  cv::Mat rotation_vector;
-  cv::Rodrigues(R, rotation_vector);
-  return PoseOf(rotation_vector, T);
-}
 
 std::vector<CornerResidual> ResidualsOf(const CameraModel& camera, const Pose& X_CG,
                                         const std::vector<BoardCorner>& corners,
@@ -183,19 +61,10 @@ void Weigh(const AdjustedPair& pair, const CalibrationBoard& board, std::vector<
 
 AdjustedPair Calibrate(const std::vector<NamedView>& views, const CalibrationBoard& board,
                        const StereoCalibratorOptions& options) {
-  const SingleCamera left = CalibrateSingle(
-      views, board, options.left_size, options.adjustment,
-      [](const NamedView& view) -> const auto& { return view.corners.left; });
-  const SingleCamera right = CalibrateSingle(
-      views, board, options.right_size, options.adjustment,
-      [](const NamedView& view) -> const auto& { return view.corners.right; });
-  const PairState start{
-      .cameras = {.left = ModelOf(left, options.left_size),
-                  .right = ModelOf(right, options.right_size),
-                  .X_RL = RelativePose(views, board, left, right, options.left_size)},
-      .X_LG = left.X_CG};
   std::vector<BoardView> corners;
   for (const NamedView& view : views) corners.push_back(view.corners);
+  const PairState start =
+      InitialPair(corners, board, {options.left_size, options.right_size}, options.adjustment);
   const AdjustedPair unweighted = AdjustPair(start, corners, board, options.adjustment);
   if (!(unweighted.variance() > 0.0)) return unweighted;  // Corners without noise.
   Weigh(unweighted, board, corners);
@@ -257,7 +126,7 @@ std::vector<LeftOutView> TakeOutPoorViews(std::vector<NamedView>& views,
                                           const CalibrationBoard& board) {
   std::vector<LeftOutView> left_out;
   std::erase_if(views, [&](const NamedView& view) {
-    const size_t shared = SharedBy(view.corners, board).on_board.size();
+    const size_t shared = CountShared(view.corners, board);
     if (shared >= kFewestShared) return false;
     left_out.push_back({view.name, fmt::format("{} corners are seen by both cameras, {} are needed",
                                                shared, kFewestShared)});

@@ -10,7 +10,7 @@
 #include "core/detection/detection.h"
 #include "vision/frame/adjustment/frame_fit.h"
 #include "vision/frame/measurement/frame_border.h"
-#include "vision/frame/model/frame_knowledge.h"
+#include "vision/frame/model/frame_prior.h"
 
 namespace fenestra {
 
@@ -51,7 +51,7 @@ class FrameFitter {
   ///   4. all in one plane, but only to 0.7 px.
   ///
   /// It then estimates how far the frame's front is behind the fitted rectangle, by the parallax
-  /// between two views (frame_depth.h), unless planes were measured by other means.
+  /// between two views (settle_depth.h), unless planes were measured by other means.
   ///
   /// Miss: "no_edges", "unsupported_side".
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);

@@ -54,6 +54,14 @@ constexpr int kLines = 8;
 
 }  // namespace
 
+const StereoObservation& StereoPart(const Observation& observation) {
+  const auto* stereo = std::get_if<StereoObservation>(&observation);
+  if (stereo == nullptr) {
+    throw InputError("observation", "is of an RGB-D sensor; this detector needs a stereo pair");
+  }
+  return *stereo;
+}
+
 StereoRectification::StereoRectification(const StereoCalibration& calibration, double alpha) {
   Validate(calibration);
   size_ = {calibration.left.width_px(), calibration.left.height_px()};

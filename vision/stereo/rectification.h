@@ -34,6 +34,9 @@ struct RectifiedCamera {
   }
 };
 
+/// Returns the images of a stereo observation. Throws InputError for an RGB-D observation.
+const StereoObservation& StereoPart(const Observation& observation);
+
 /// Both images of a pair, resampled so that a point in space has the same row in both.
 struct RectifiedPair {
   cv::Mat1b left;

@@ -23,8 +23,8 @@ T LoadLittleEndian(const uint8_t* at) {
   return value;
 }
 
-/// How many bytes may still be read; shared by all files of an asset, since one small file can
-/// name a large one many times.
+/// The number of bytes that may still be read, shared by all files of an asset: one small file can
+/// refer to a large one many times.
 class ByteBudget {
  public:
   explicit ByteBudget(size_t bytes) : limit_(bytes), left_(bytes) {}
@@ -46,10 +46,10 @@ class ByteBudget {
 /// one beyond the budget.
 Bytes ReadWholeFile(const std::filesystem::path& file, ByteBudget& budget);
 
-/// What a URI in a glTF file refers to: data inside the URI itself, or a file in the folder of the
-/// glTF file or below it. Nothing else is ever opened: no other scheme, no absolute path, no way
-/// out by ".." or by a symbolic link. Throws std::invalid_argument with the reason, or InputError
-/// where the file itself cannot be read.
+/// Reads the data that a URI in a glTF file refers to: data inside the URI itself, or a file in the
+/// folder of the glTF file or below it. Nothing else is ever opened: no other scheme, no absolute
+/// path, and no file that ".." or a symbolic link leads to. Throws std::invalid_argument with the
+/// reason, or InputError where the file itself cannot be read.
 Bytes ReadUri(std::string_view uri, const std::filesystem::path& folder, ByteBudget& budget);
 
 }  // namespace fenestra::gltf

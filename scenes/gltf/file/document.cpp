@@ -13,7 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-// Readers of JSON trees recurse; the deepest place of glTF 2.0 with our extensions is about 10.
+// Deepest nesting that is read, since readers of JSON trees recurse. glTF 2.0 with our extensions
+// needs about 10.
 constexpr int kDeepestNesting = 64;
 // A value costs some ten times its text in memory. The largest honest scenes have some thousands.
 constexpr size_t kMostValues = 5'000'000;
@@ -34,9 +35,9 @@ std::string PlainReason(std::string_view what) {
   return "not JSON: " + std::string(colon == what.npos ? what : what.substr(colon + 2));
 }
 
-// Bounds what parsing the text can cost, by its brackets and commas outside of strings; whether it
-// is JSON the parser will say. (The parser's own callback, which could do this, takes time with the
-// square of an array's length.)
+// Limits the cost of parsing the text by its brackets and commas outside of strings. Whether it is
+// JSON is left to the parser. (The parser's own callback could do this, but takes time in
+// proportion to the square of an array's length.)
 void CheckCost(const std::filesystem::path& file, std::string_view text) {
   int depth = 0;
   size_t values = 1;
@@ -82,8 +83,8 @@ Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget) {
   const Bytes bytes = ReadWholeFile(file, budget);
   Document document{.file = file, .json = {}, .binary_chunk = {}};
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  // Not by the file's extension: a wrong one should not matter, and damaged magic bytes of a .glb
-  // are named as such.
+  // The file's extension does not decide: a wrong one should not matter, and damaged magic bytes of
+  // a .glb are reported as such.
   if (text.starts_with("glTF") || file.extension() == ".glb") {
     const GlbChunks chunks = SplitGlb(file, bytes);
     text = chunks.json;

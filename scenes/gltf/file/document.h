@@ -9,7 +9,7 @@
 
 namespace fenestra::gltf {
 
-/// A file can be wrong in a million places; nobody reads more faults than this.
+/// The most faults that are reported of one file.
 inline constexpr size_t kMostFaults = 50;
 
 /// A glTF file taken out of its container: the JSON and, in a .glb, the binary chunk.

@@ -10,9 +10,9 @@
 
 namespace fenestra::gltf {
 
-/// The elements of an accessor, wherever they lie: packed, interleaved, sparse, or undefined, which
-/// glTF calls zeros. Normalised integers become [0, 1] or [-1, 1] by section 3.11 of the
-/// specification; other integers keep their value.
+/// Elements of accessors may be packed, interleaved, sparse, or undefined, which means zeros.
+/// Normalised integers become [0, 1] or [-1, 1] by section 3.11 of the specification; other
+/// integers keep their value.
 
 /// All components of all elements, in order. Throws InputError for a component that is not a
 /// finite number, for a sparse accessor whose indices are out of order, and where the buffer has no
@@ -24,10 +24,11 @@ std::vector<glm::vec3> ReadVec3(const Asset& asset, int accessor);
 /// A VEC3 gets w = 1, as a colour without alpha.
 std::vector<glm::vec4> ReadVec4(const Asset& asset, int accessor);
 
-/// Of an accessor of unsigned integers.
+/// The values of an accessor of unsigned integers.
 std::vector<uint32_t> ReadUnsigned(const Asset& asset, int accessor);
 
-/// Whether a primitive's mode (TINYGLTF_MODE_...) makes triangles, and how many of `vertices`.
+/// Whether a primitive's mode (TINYGLTF_MODE_...) makes triangles, and how many triangles it makes
+/// of so many vertices.
 bool HasTriangles(int mode);
 size_t TriangleCount(int mode, size_t vertices);
 

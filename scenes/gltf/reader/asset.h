@@ -13,8 +13,8 @@
 
 namespace fenestra::gltf {
 
-/// Gathers what a reader leaves out or approximates: one sentence for each kind, with the things
-/// that it happened to.
+/// Collects what a reader leaves out or approximates: one sentence for each kind, with the names of
+/// the things concerned.
 class Notes {
  public:
   /// `what` is the rest of a sentence that begins with the thing's name.

@@ -11,7 +11,7 @@
 namespace fenestra::gltf {
 namespace {
 
-// Of a camera that does not say: as most sensors have it.
+// Aspect ratio of a camera that does not state one: that of most sensors.
 constexpr double kUsualAspectRatio = 4.0 / 3.0;
 
 CameraModel FromExtras(const tinygltf::Value& ours) {
@@ -33,7 +33,7 @@ CameraModel FromExtras(const tinygltf::Value& ours) {
 // yfov spans the whole image: h / 2 = f tan(yfov / 2).
 CameraModel FromFieldOfView(const tinygltf::PerspectiveCamera& camera, int height_px) {
   const double aspect = camera.aspectRatio > 0.0 ? camera.aspectRatio : kUsualAspectRatio;
-  // Beyond what CameraModel allows it refuses; up to there the conversion to int is safe.
+  // CameraModel refuses larger sizes; up to its limit the conversion to int is safe.
   const double width_px = std::min(std::round(height_px * aspect), 1e6);
   return CameraModel::Pinhole(static_cast<int>(width_px), height_px,
                               0.5 * height_px / std::tan(0.5 * camera.yfov));

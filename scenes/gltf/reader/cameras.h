@@ -8,8 +8,8 @@
 namespace fenestra::gltf {
 
 /// The perspective cameras of the placed nodes. With Fenestra's camera extras they are as they were
-/// written; without, a pinhole of the file's field of view, `height_px` high and centred, whose
-/// pixels are square.
+/// written; without them, each is a pinhole of the file's field of view, `height_px` high and
+/// centred, whose pixels are square.
 std::vector<SceneCamera> ReadCameras(const Asset& asset, const std::vector<PlacedNode>& nodes,
                                      int height_px, Notes& notes);
 

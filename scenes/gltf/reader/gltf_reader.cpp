@@ -27,7 +27,7 @@ void NoteWhatIsIgnored(const gltf::Asset& asset, gltf::Notes& notes) {
   }
 }
 
-// Faults of the scene that no check before has found, such as a place beyond single precision.
+// Faults of the scene that no earlier check has found, such as a position beyond single precision.
 void CheckScene(const std::filesystem::path& file, const Scene& scene) {
   try {
     Validate(scene);

@@ -86,7 +86,7 @@ ImageHeader ReadJpeg(Span bytes) {
 
 constexpr uint32_t kLargestSide = 16384;
 
-// nullopt: fine.
+// The fault of an image, or nullopt if it has none.
 std::optional<std::string> FaultOf(const ImageHeader& header) {
   if (header.format == ImageHeader::Format::kOther) return "not a PNG or JPEG image";
   if (header.width_px > kLargestSide || header.height_px > kLargestSide) {
@@ -117,7 +117,7 @@ cv::Mat Decode(const Asset& asset, size_t image) {
   return decoded;
 }
 
-// 8 bits, in the order red, green, blue, alpha.
+// Converts to 8 bits a channel, in the order red, green, blue, alpha.
 cv::Mat4b ToRgba(const Asset& asset, size_t image, const cv::Mat& decoded) {
   cv::Mat narrow = decoded;
   if (decoded.depth() == CV_16U) decoded.convertTo(narrow, CV_8U, 1.0 / 257.0);

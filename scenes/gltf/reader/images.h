@@ -12,13 +12,13 @@
 
 namespace fenestra::gltf {
 
-/// What a PNG or JPEG file says of itself before anything is decompressed.
+/// The header of a PNG or JPEG file, read before anything is decompressed.
 struct ImageHeader {
   enum class Format { kPng, kJpeg, kOther };
   Format format = Format::kOther;
   uint32_t width_px = 0;
   uint32_t height_px = 0;
-  /// The file's end mark is there: it was not cut off.
+  /// Whether the file has its end mark, i.e. was not truncated.
   bool is_complete = false;
 };
 
@@ -32,11 +32,11 @@ struct Picture {
   std::vector<glm::u8vec4> texels;
 };
 
-/// Holds the headers of all images of an asset, needed or not, against the limits and for
-/// completeness. Images of formats that an ignored extension brings along are left alone.
+/// Checks the headers of all images of an asset, needed or not, against the limits and for
+/// completeness. Images in formats of ignored extensions are not checked.
 void CheckImages(const Asset& asset, Faults& faults);
 
-/// How many pixels may still be decoded.
+/// The number of pixels that may still be decoded.
 class PixelBudget {
  public:
   explicit PixelBudget(size_t pixels) : left_(pixels) {}

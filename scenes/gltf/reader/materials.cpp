@@ -12,7 +12,7 @@
 namespace fenestra::gltf {
 namespace {
 
-// Of linear Rec. 709 colours.
+// Weights of the luminance of linear Rec. 709 colours.
 double Luminance(const glm::dvec3& rgb) {
   return glm::dot(rgb, glm::dvec3(0.2126, 0.7152, 0.0722));
 }
@@ -34,7 +34,7 @@ bool IsGlass(const tinygltf::Material& source) {
   return !IsUnlit(source) && Transmission(source) > 0.5;
 }
 
-// [cd/m²], before its texture.
+// Emission [cd/m²] without its texture.
 glm::dvec3 Emission(const tinygltf::Material& source) {
   return Rgb(source.emissiveFactor) * ExtensionNumberOr(source.extensions,
                                                         "KHR_materials_emissive_strength",

@@ -13,16 +13,16 @@ namespace fenestra::gltf {
 /// under an overcast sky. glTF gives unlit colours no unit.
 inline constexpr double kUnlitWhite_cd_per_m2 = 100.0;
 
-/// Where an alpha-blended surface is cut, as Fenestra's surfaces are there or not.
+/// Alpha at which an alpha-blended surface is cut, since Fenestra's surfaces are not transparent.
 inline constexpr double kBlendCutoff = 0.5;
 
-/// glTF's index of refraction where a file does not state it.
+/// glTF's default index of refraction.
 inline constexpr double kDefaultIndexOfRefraction = 1.5;
 
 /// A material of the document, as a surface of Fenestra's.
 struct ReadMaterial {
   Material material;
-  std::optional<TextureUse> texture;  ///< How material.texture lies on the mesh.
+  std::optional<TextureUse> texture;  ///< Placement of material.texture on the mesh.
   bool is_invisible = false;          ///< Its alpha is below the cutoff everywhere.
 };
 
@@ -34,7 +34,7 @@ struct ReadMaterials {
 
 ReadMaterials ConvertMaterials(const Asset& asset, size_t max_image_pixels, Notes& notes);
 
-/// glTF's material where a primitive names none: white.
+/// glTF's default material, for primitives that name none: white.
 Material DefaultMaterial();
 
 }  // namespace fenestra::gltf

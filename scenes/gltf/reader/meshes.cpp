@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Matrix4d;
 
-// Each is an object with arrays of its own, which costs half a kilobyte.
+// Most meshes of one scene: each is an object with arrays of its own, which takes half a kilobyte.
 constexpr size_t kMostMeshes = 1'000'000;
 
 const tinygltf::Mesh* MeshOf(const Asset& asset, const PlacedNode& placed) {

@@ -8,13 +8,13 @@
 
 namespace fenestra::gltf {
 
-/// A node where it stands. M_WN maps the node's coordinates to the world's; affine, not always a
-/// rigid transform.
+/// A node with its place in the world. M_WN maps the node's coordinates to the world's; affine, not
+/// always a rigid transform.
 struct PlacedNode {
   size_t node = 0;
   Eigen::Matrix4d M_WN = Eigen::Matrix4d::Identity();
   bool is_visible = true;  ///< KHR_node_visibility, of the node and all its ancestors.
-  size_t subtree_end = 0;  ///< In the list of placed nodes: behind the last descendant.
+  size_t subtree_end = 0;  ///< Index behind its last descendant in the list of placed nodes.
 };
 
 /// All nodes of the chosen scene, each before its descendants, siblings in the document's order.

@@ -27,8 +27,8 @@ struct Surface {
   std::vector<JointWeights> joint_sets;
 };
 
-/// How many triangles and vertices, those of its morph targets too, a primitive claims to have;
-/// nothing is read for it.
+/// The numbers of triangles and of vertices, including those of its morph targets, that a primitive
+/// claims to have. No data is read for them.
 size_t ClaimedTriangles(const Asset& asset, const tinygltf::Primitive& primitive);
 size_t ClaimedVertices(const Asset& asset, const tinygltf::Primitive& primitive);
 

@@ -14,7 +14,7 @@
 
 namespace fenestra::gltf {
 
-/// How a material lays a texture on a mesh: which coordinates, and KHR_texture_transform,
+/// Placement of a material's texture on a mesh: the coordinate set and KHR_texture_transform,
 ///
 ///     u' = o_u + s_u u cos ρ + s_v v sin ρ
 ///     v' = o_v − s_u u sin ρ + s_v v cos ρ
@@ -31,7 +31,7 @@ struct TextureUse {
   bool operator==(const TextureUse&) const = default;
 };
 
-/// nullopt where the material has no such texture, or one without an image that can be read.
+/// nullopt if the material has no such texture, or if the texture's image cannot be read.
 std::optional<TextureUse> ReadTextureUse(const tinygltf::Model& model,
                                          const tinygltf::TextureInfo& info);
 

@@ -32,8 +32,8 @@ glm::vec3 TransformNormal(const Matrix3d& L, const glm::vec3& normal) {
   return ToGlm(n.normalized());
 }
 
-// Makes them unit vectors; those that are in single precision keep their bits. False where one has
-// no direction.
+// Normalises vectors; those that are unit vectors in single precision keep their bits. Returns
+// false if one has no direction.
 bool Normalise(std::vector<glm::vec3>& normals) {
   constexpr double kUnitTolerance = 1e-6;
   for (glm::vec3& n : normals) {

@@ -8,9 +8,9 @@
 
 namespace fenestra::gltf {
 
-/// A surface carried into the world by M_WM, or each vertex by a transform of its own where it is
-/// skinned. Name, material and `closed` of the mesh are left to the caller. Where a normal has no
-/// direction, the mesh has none at all.
+/// A surface transformed into the world by M_WM or, if it is skinned, each vertex by a transform of
+/// its own. The caller sets name, material and `closed` of the mesh. If one normal has no
+/// direction, the mesh has no normals at all.
 Mesh CarryToWorld(const Surface& surface, const Eigen::Matrix4d& M_WM);
 Mesh CarryToWorld(const Surface& surface, const std::vector<Eigen::Matrix4d>& M_WM_of_vertex);
 

@@ -5,7 +5,7 @@
 namespace fenestra::gltf {
 namespace {
 
-// Zeros that no data stands for: a sparse morph target of a large mesh, but no bomb.
+// Most zeros without data behind them: enough for a sparse morph target of a large mesh.
 constexpr uint64_t kMostUndefinedComponents = 30'000'000;
 
 // The schema keeps all sizes below 2^53 and strides below 2^8, so that no sum below overflows.

@@ -30,7 +30,7 @@ std::vector<std::string> Names(const json& root, const char* member) {
   return names;
 }
 
-// 2.0 is read, and later 2.x files that do not insist on their version.
+// Version 2.0 is read, and later 2.x files that do not require their version.
 void CheckVersion(const json& asset, Faults& faults) {
   for (const char* member : {"version", "minVersion"}) {
     const auto found = asset.find(member);

@@ -18,7 +18,7 @@ bool IsSupported(std::string_view extension);
 /// The names in the document's `extensionsUsed`.
 std::set<std::string> DeclaredExtensions(const nlohmann::json& root);
 
-/// The version, and that all required extensions are supported and declared.
+/// Checks the version, and that all required extensions are supported and declared.
 void CheckVersionAndExtensions(const nlohmann::json& root, Faults& faults);
 
 /// Extensions that the document uses and Fenestra leaves out.
@@ -30,10 +30,10 @@ std::vector<std::string> IgnoredExtensions(const nlohmann::json& root);
 /// The extension's `attributes`, or nullptr where a node lacks it.
 const tinygltf::Value* InstanceAttributes(const tinygltf::Node& node);
 
-/// That their types are the allowed ones and that they are equally long.
+/// Checks that the attributes have allowed types and are equally long.
 void CheckInstancing(const tinygltf::Model& model, Faults& faults);
 
-/// 1 without the extension; nothing is read for it.
+/// The number of instances, 1 without the extension. No data is read for it.
 size_t InstanceCount(const tinygltf::Model& model, const tinygltf::Node& node);
 
 }  // namespace fenestra::gltf

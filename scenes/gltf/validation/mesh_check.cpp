@@ -43,7 +43,7 @@ Format FormatOf(const tinygltf::Accessor& accessor) {
   }
 }
 
-// What a vertex attribute may consist of: section 3.7.2.1 of the specification and, where a file
+// The allowed formats of a vertex attribute: section 3.7.2.1 of the specification and, where a file
 // declares it, KHR_mesh_quantization.
 struct AttributeRule {
   std::set<int> types;

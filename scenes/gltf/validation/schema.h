@@ -10,8 +10,8 @@ namespace fenestra::gltf {
 
 struct ObjectSchema;
 
-/// What a member of a JSON object may be: one row of the glTF 2.0 schema. With `is_array`, the
-/// limits on values hold for each element.
+/// The allowed values of a member of a JSON object: one row of the glTF 2.0 schema. If `is_array`
+/// is set, the limits on values hold for each element.
 struct Property {
   enum class Kind { kInteger, kNumber, kBoolean, kString, kReference, kObject };
 

@@ -9,7 +9,7 @@
 
 namespace fenestra::gltf {
 
-/// How one element of an accessor lies in memory. Matrix columns begin at multiples of four bytes.
+/// Memory layout of one element of an accessor. Matrix columns begin at multiples of four bytes.
 struct ElementLayout {
   uint32_t component_bytes = 0;
   uint32_t columns = 1;
@@ -17,26 +17,27 @@ struct ElementLayout {
   uint32_t column_bytes = 0;
 
   uint32_t ComponentCount() const { return columns * rows; }
-  /// From an element's first byte to behind its last one.
+  /// Bytes from the beginning of an element to its end.
   uint32_t Bytes() const { return (columns - 1) * column_bytes + rows * component_bytes; }
-  /// From one element to the next where the buffer view does not say.
+  /// Bytes from one element to the next if the buffer view states no stride.
   uint32_t PackedStride() const { return columns * column_bytes; }
 };
 
 ElementLayout LayoutOf(int component_type, int type);
 
-/// What the schema cannot say. All of them take a model that passed CheckSchema, and
-/// `buffer_lengths`, the buffers' stated sizes in bytes.
+/// Checks of rules that the schema cannot express. All of them take a model that passed
+/// CheckSchema.
 
-/// Views within their buffers, accessors within their views, alignment, strides. An accessor
-/// without a view, all zeros, costs memory for nothing and is bounded.
+/// Checks that views lie within their buffers, whose stated sizes in bytes are `buffer_lengths`,
+/// and accessors within their views; alignment and strides. The size of accessors without a view,
+/// which are all zeros, is limited, too.
 void CheckAccessors(const tinygltf::Model& model, const std::vector<uint64_t>& buffer_lengths,
                     Faults& faults);
 
-/// Which attributes a primitive has, in which formats, and that they are equally long.
+/// Checks which attributes a primitive has, their formats, and that they are equally long.
 void CheckMeshes(const tinygltf::Model& model, Faults& faults);
 
-/// That nodes form a forest and scenes name its roots; skins, cameras, lights and animations.
+/// Checks that nodes form a forest and scenes name its roots; skins, cameras, lights, animations.
 void CheckNodes(const tinygltf::Model& model, const nlohmann::json& root, Faults& faults);
 void CheckSkins(const tinygltf::Model& model, Faults& faults);
 void CheckCamerasAndLights(const nlohmann::json& root, Faults& faults);

@@ -121,7 +121,7 @@ void WriteMaterials(const Scene& scene, tinygltf::Model& model) {
     tinygltf::Material out;
     out.name = material.name;
     out.pbrMetallicRoughness.metallicFactor = 0.0;
-    // glTF says it of a material, Fenestra of a mesh.
+    // It is a property of materials in glTF, but of meshes in Fenestra.
     out.doubleSided = std::ranges::any_of(
         scene.meshes, [i](const Mesh& mesh) { return mesh.material == i && !mesh.closed; });
     if (material.kind == Material::Kind::kGlass) {

@@ -12,7 +12,7 @@ using Eigen::Matrix4d;
 using Eigen::Vector3d;
 using tinygltf::Value;
 
-// What viewers need to draw anything; Fenestra has no clipping planes.
+// Clipping planes, which viewers need; Fenestra has none.
 constexpr double kNear_m = 0.01;
 constexpr double kFar_m = 1000.0;
 

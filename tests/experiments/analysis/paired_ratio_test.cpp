@@ -12,7 +12,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteRatio = std::numeric_limits<double>::infinity();
 
 // Lengths of normal 3-vectors; the condition's are `ratio` times as long, and partly its own.
 std::vector<ErrorPair> Pairs(double ratio, double own, int count, const RandomStream& stream) {
@@ -70,7 +70,7 @@ TEST(PairedRatioTest, SeveralCellsCountByTheirGeometricMean) {
 
 TEST(PairedRatioTest, MissesCountInTheQuantileAndNotInTheRmse) {
   std::vector<ErrorPair> pairs = Pairs(1.0, 0.0, 40, RandomStream(8));
-  for (size_t i = 0; i < 4; ++i) pairs[i] = {kInfinity, pairs[i].base_error_m, false, true};
+  for (size_t i = 0; i < 4; ++i) pairs[i] = {kInfiniteRatio, pairs[i].base_error_m, false, true};
   const PairedRatios ratios = RatiosOf({&pairs, 1}, RandomStream(9));
   EXPECT_TRUE(std::isfinite(ratios.rmse.value));
   EXPECT_TRUE(std::isnan(ratios.p95_error.value));

@@ -9,7 +9,7 @@ namespace fenestra {
 namespace {
 
 // A sensor whose values say how many electrons there were, apart from noise of this deviation.
-ImageSensorOptions FixedNoise(double deviation_e) {
+ImageSensorOptions SensorOfNoise(double deviation_e) {
   return {.saturation_e = 65535.0,
           .dsnu_e = deviation_e,
           .prnu = 0.0,
@@ -44,7 +44,7 @@ double LensOf(double blur_sigma_px) {
 
 TEST(BorderProfileTest, AnEdgeInFixedNoiseHasItsClosedForm) {
   for (const double blur_px : {0.5, 0.6, 1.0}) {
-    const PixelNoise noise = PixelNoise::Linear(FixedNoise(20.0), {});
+    const PixelNoise noise = PixelNoise::Linear(SensorOfNoise(20.0), {});
     const double information =
         MeanInformation({.wall_e = 2000.0, .frame_e = 300.0}, noise, LensOf(blur_px));
     // The closed form takes pixel and lens together for a Gaussian: 2 % at 0.5 px.
@@ -75,7 +75,7 @@ TEST(BorderProfileTest, AnEdgeOfTheStereoCameraHasItsPublishedBound) {
 
 TEST(BorderProfileTest, PixelsInFlatPlacesTellTheLevelsAndNothingElse) {
   const BlurredEdge edge(0.4, {1.0, 0.0});
-  const PixelNoise noise = PixelNoise::Linear(FixedNoise(10.0), {});
+  const PixelNoise noise = PixelNoise::Linear(SensorOfNoise(10.0), {});
   const auto information = [&](double margin_px) {
     return InformationOf({.outer = {edge, 50.3, -1.0},
                           .inner = EdgeCrossing{edge, 30.1, -1.0},
@@ -98,7 +98,7 @@ TEST(BorderProfileTest, PixelsInFlatPlacesTellTheLevelsAndNothingElse) {
 
 TEST(BorderProfileTest, ANarrowBorderTellsLessOfEachOfItsEdges) {
   const BlurredEdge edge(0.5, {1.0, 0.0});
-  const PixelNoise noise = PixelNoise::Linear(FixedNoise(10.0), {});
+  const PixelNoise noise = PixelNoise::Linear(SensorOfNoise(10.0), {});
   const auto information = [&](double border_px) {
     return InformationOf({.outer = {edge, 30.2, 1.0},
                           .inner = EdgeCrossing{edge, 30.2 + border_px, 1.0},
@@ -114,7 +114,7 @@ TEST(BorderProfileTest, ANarrowBorderTellsLessOfEachOfItsEdges) {
 
 TEST(BorderProfileTest, SaturatedPixelsTellNothing) {
   const BlurredEdge edge(0.4, {1.0, 0.0});
-  const PixelNoise noise = PixelNoise::Linear(FixedNoise(10.0), {});
+  const PixelNoise noise = PixelNoise::Linear(SensorOfNoise(10.0), {});
   const BorderInformation information = InformationOf(
       {.outer = {edge, 50.0, 1.0}, .inner = {}, .margin_px = 5, .first = 0, .last = 99},
       {.wall_e = 65535.0, .frame_e = 65530.0}, noise);

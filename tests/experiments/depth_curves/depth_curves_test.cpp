@@ -11,16 +11,6 @@
 namespace fenestra {
 namespace {
 
-TEST(DepthCurvesTest, PublishedCurvesAreAsPublished) {
-  EXPECT_NEAR(KhoshelhamSigma(4.0), 0.0228, 1e-4);
-  EXPECT_NEAR(NguyenSigma(2.0, 0.2), 0.0061, 1e-4);
-  EXPECT_GT(NguyenSigma(2.0, 1.3), NguyenSigma(2.0, 0.2));
-  EXPECT_NEAR(NguyenLateralSigma(0.0), 0.8, 1e-12);
-  EXPECT_NEAR(NguyenLateralSigma(0.7854), 0.835, 1e-4);
-  EXPECT_NEAR(OpenNiStep(2.0), 0.0114, 1e-4);
-  EXPECT_NEAR(MicrosoftStep(2.0), 0.0058, 1e-4);
-}
-
 // Images of a quarter of the width, so that a test can afford them.
 StructuredLightOptions Small(DepthModel model) {
   StructuredLightOptions options;
@@ -67,44 +57,10 @@ TEST(DepthCurvesTest, TheParametricModelLosesReturnsToLightAndDistance) {
   });
 }
 
-TEST(DepthCurvesTest, PredictionsFollowTheConstants) {
-  // σ² = dark² + 1/12 with dots of 590 (0.05/0.8)/z² DN: a pattern of variance 0.08 correlates by
-  // one half at 1.31 m without shot noise and laser speckle.
-  EXPECT_NEAR(PredictedReach({}, 0.05), 1.3, 0.08);
-  // Twice the reflectance at √2 times the distance gives the same dots.
-  EXPECT_NEAR(PredictedReach({}, 0.10) / PredictedReach({}, 0.05), std::sqrt(2.0), 1e-9);
-  // White walls near by are lost to saturation: 590 · 8.45e-6 · 10/0.574 = 0.0868 DN per lux.
-  const ReachPrediction near = PredictedAmbientLimit({}, 0.8, 1.0);
-  EXPECT_TRUE(near.by_saturation);
-  EXPECT_NEAR(near.lux, 1023.0 / 0.0868, 30.0);
-  // Dim dots are lost to noise before.
-  const ReachPrediction far = PredictedAmbientLimit({}, 0.8, 4.0);
-  EXPECT_FALSE(far.by_saturation);
-  EXPECT_LT(far.lux, near.lux);
-  // A filter of half the width lets half of the light through.
-  StructuredLightOptions narrow;
-  narrow.infrared.filter_width_nm /= 2.0;
-  EXPECT_NEAR(PredictedAmbientLimit(narrow, 0.8, 4.0).lux / far.lux, 2.0, 1e-9);
-  // 42.84 px m: 10.7 px for a plate at 2 m before a wall at 4 m.
-  EXPECT_NEAR(ShadowWidth({}, 2.0, 4.0), 10.7, 0.05);
-}
-
 TEST(DepthCurvesTest, HalfPointsLieBetweenTheSamplesAroundThem) {
   const std::vector<cv::Point2d> shares = {{1.0, 1.0}, {10.0, 0.75}, {1000.0, 0.25}, {1e4, 0.0}};
   EXPECT_NEAR(HalfPoint(shares), 100.0, 1e-9);
   EXPECT_TRUE(std::isnan(HalfPoint({{1.0, 1.0}, {2.0, 0.6}})));
-}
-
-TEST(DepthCurvesTest, BothModelsStandInOneReport) {
-  const DepthCurves parametric =
-      MeasureDepthCurves(Small(DepthModel::kParametric), RandomStream(1));
-  const DepthCurves speckle = MeasureDepthCurves(Small(DepthModel::kMatched), RandomStream(1));
-  const std::string report =
-      DepthCurvesMarkdown(Small(DepthModel::kParametric), parametric, speckle);
-  EXPECT_NE(report.find("Khoshelham"), std::string::npos);
-  EXPECT_NE(report.find("speckle"), std::string::npos);
-  EXPECT_EQ(report.find("nan"), std::string::npos);
-  EXPECT_FALSE(DepthCurvesPicture(parametric, speckle).empty());
 }
 
 }  // namespace

@@ -86,15 +86,6 @@ class RecordedSequenceTest : public ::testing::Test {
            truth + "}\n";
   }
 
-  std::string Complaint(const std::string& text) const {
-    try {
-      ReadSequence(folder_.Write("sequence.yaml", text));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
-  }
-
   TemporaryFolder folder_;
 };
 
@@ -132,32 +123,6 @@ TEST_F(RecordedSequenceTest, DetectionsThatWereMadeElsewhereAreScoredAlike) {
                InputError);
   EXPECT_THROW(ReadDetections("mine", folder_.Write("list.json", "[1]"), 1), InputError);
   EXPECT_THROW(ReadDetections("mine", folder_ / "missing.json", 1), InputError);
-}
-
-TEST_F(RecordedSequenceTest, FaultsAreReportedWithTheirPlace) {
-  EXPECT_EQ(Complaint(Text("none")), "");
-  EXPECT_EQ(Complaint(Text("{other_windows: [" + std::string(kScreen) + "]}")), "");
-  EXPECT_THAT(Complaint(Text("there")), HasSubstr("sequence.yaml:7:"));
-  EXPECT_THAT(Complaint(Text("{centroid_m: [0, 1], width_m: 1, height_m: 1}")),
-              HasSubstr("list of 3 numbers"));
-  EXPECT_THAT(Complaint(Text("{centroid_m: [0, 0, .nan], width_m: 1, height_m: 1}")),
-              HasSubstr("finite number"));
-  EXPECT_THAT(Complaint(Text("{centroid_m: [0, 0, 1], width_m: 0, height_m: 1}")),
-              HasSubstr("width_m must be above 0"));
-  EXPECT_THAT(Complaint(Text("{centroid_m: [0, 0, 1], width_m: 1}")), HasSubstr("height_m"));
-  EXPECT_THAT(Complaint(Text("{centriod_m: [0, 0, 1], width_m: 1, height_m: 1}")),
-              HasSubstr("Did you mean 'centroid_m'?"));
-  EXPECT_THAT(Complaint(Text("none, levels: {light: dusk, light: noon}")),
-              HasSubstr("'light' stands twice in levels"));
-  EXPECT_THAT(Complaint("name: a\nsensor: rgbd\nframes: []\n"), HasSubstr("at least one frame"));
-  EXPECT_THAT(Complaint("name: a\nsensor: rgbd\n"), HasSubstr("needs frames"));
-  EXPECT_THAT(Complaint("name: a\n"), HasSubstr("needs sensor"));
-  EXPECT_THAT(Complaint("[1]\n"), HasSubstr("sequence.yaml:1:1"));
-  const std::string missing =
-      Complaint("name: a\nsensor: stereo\nframes:\n  - {left: l.png, right: r.png, truth: none}\n");
-  EXPECT_THAT(missing, HasSubstr("sequence.yaml:4:12: there is no file"));
-  EXPECT_THAT(missing, HasSubstr("sequence.yaml:4:26: there is no file"));  // Both at once.
-  EXPECT_THAT(missing, HasSubstr("needs calibration"));
 }
 
 TEST_F(RecordedSequenceTest, AnImageThatCannotBeReadIsNamedAndNothingIsWritten) {

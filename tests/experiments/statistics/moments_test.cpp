@@ -11,10 +11,10 @@
 namespace fenestra {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteValue = std::numeric_limits<double>::infinity();
 
 /// P(X = k) for X ~ Binomial(n, p), 0 < p < 1.
-double BinomialProbability(int k, int n, double p) {
+double ProbabilityOfHits(int k, int n, double p) {
   const double log_choose = std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
   return std::exp(log_choose + k * std::log(p) + (n - k) * std::log1p(-p));
 }
@@ -24,7 +24,7 @@ double Coverage(int n, double p, const auto& interval_of) {
   double covered = 0.0;
   for (int k = 0; k <= n; ++k) {
     const Interval interval = interval_of(k);
-    if (interval.lower <= p && p <= interval.upper) covered += BinomialProbability(k, n, p);
+    if (interval.lower <= p && p <= interval.upper) covered += ProbabilityOfHits(k, n, p);
   }
   return covered;
 }
@@ -82,9 +82,9 @@ TEST(ClopperPearson, SolvesItsDefinition) {
   const int k = 17;
   const Interval interval = ClopperPearson(k, n);
   double at_least = 0.0;
-  for (int i = k; i <= n; ++i) at_least += BinomialProbability(i, n, interval.lower);
+  for (int i = k; i <= n; ++i) at_least += ProbabilityOfHits(i, n, interval.lower);
   double at_most = 0.0;
-  for (int i = 0; i <= k; ++i) at_most += BinomialProbability(i, n, interval.upper);
+  for (int i = 0; i <= k; ++i) at_most += ProbabilityOfHits(i, n, interval.upper);
   EXPECT_NEAR(at_least, 0.025, kEnumerationError);
   EXPECT_NEAR(at_most, 0.025, kEnumerationError);
 }
@@ -117,10 +117,10 @@ TEST(SampleQuantile, EveryHundredthOfAHundredIsThatRank) {
 
 TEST(SampleQuantile, MoreThanTheTailOfMissesMakesItInfinite) {
   std::vector<double> values(20, 0.1);
-  values[3] = kInfinity;  // One of 20 is 5 %: the 19th smallest is still finite.
+  values[3] = kInfiniteValue;  // One of 20 is 5 %: the 19th smallest is still finite.
   EXPECT_EQ(SampleQuantile(values, 0.95), 0.1);
-  values[8] = kInfinity;
-  EXPECT_EQ(SampleQuantile(values, 0.95), kInfinity);
+  values[8] = kInfiniteValue;
+  EXPECT_EQ(SampleQuantile(values, 0.95), kInfiniteValue);
   EXPECT_EQ(SampleQuantile(values, 0.50), 0.1);
 }
 

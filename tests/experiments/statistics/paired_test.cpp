@@ -9,7 +9,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteError = std::numeric_limits<double>::infinity();
 
 double LogFactorial(int n) {
   return std::lgamma(n + 1.0);
@@ -85,8 +85,8 @@ TEST(PairedDifference, ChangesSignWithTheOrder) {
 }
 
 TEST(CompareErrors, CountsMissesAsInfinite) {
-  const std::vector<double> first{1.0, 2.0, kInfinity, kInfinity, 5.0};
-  const std::vector<double> second{2.0, 4.0, 3.0, kInfinity, kInfinity};
+  const std::vector<double> first{1.0, 2.0, kInfiniteError, kInfiniteError, 5.0};
+  const std::vector<double> second{2.0, 4.0, 3.0, kInfiniteError, kInfiniteError};
   const ErrorComparison comparison = CompareErrors({first, second});
   EXPECT_EQ(comparison.pairs, 5);
   EXPECT_EQ(comparison.first_nearer, 3);

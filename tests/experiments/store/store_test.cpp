@@ -6,23 +6,20 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <bit>
 #include <cstdlib>
 #include <fstream>
-#include <limits>
 #include <sstream>
 #include <thread>
 
 #include "core/io/input_error.h"
-#include "experiments/analysis/cell_tally.h"
-#include "experiments/run/result_files.h"
-#include "experiments/store/record_json.h"
+#include "tests/experiments/store/same_bits.h"
 #include "tests/experiments/trial/record_examples.h"
 
 namespace fenestra {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ExpectSameBits;
 using testing::RandomHit;
 using testing::Row;
 
@@ -57,122 +54,6 @@ std::string ReadBytes(const fs::path& file) {
 
 void WriteBytes(const fs::path& file, const std::string& bytes) {
   std::ofstream(file, std::ios::binary) << bytes;
-}
-
-std::vector<uint64_t> Bits(const auto& matrix) {
-  std::vector<uint64_t> bits;
-  for (Eigen::Index i = 0; i < matrix.size(); ++i) {
-    bits.push_back(std::bit_cast<uint64_t>(matrix.data()[i]));
-  }
-  return bits;
-}
-
-void ExpectSameBits(const FactorValues& a, const FactorValues& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (size_t i = 0; i < a.size(); ++i) {
-    EXPECT_EQ(a[i].first, b[i].first);
-    ASSERT_EQ(a[i].second.index(), b[i].second.index());
-    if (const double* number = std::get_if<double>(&a[i].second)) {
-      EXPECT_EQ(std::bit_cast<uint64_t>(*number),
-                std::bit_cast<uint64_t>(std::get<double>(b[i].second)));
-    } else {
-      EXPECT_EQ(a[i].second, b[i].second);
-    }
-  }
-}
-
-void ExpectSameBits(const Score& a, const Score& b) {
-  EXPECT_EQ(a.outcome, b.outcome);
-  EXPECT_EQ(a.reason, b.reason);
-  EXPECT_EQ(a.detail, b.detail);
-  ASSERT_EQ(a.truth_p_CO.has_value(), b.truth_p_CO.has_value());
-  if (a.truth_p_CO) {
-    EXPECT_EQ(Bits(*a.truth_p_CO), Bits(*b.truth_p_CO));
-  }
-  ASSERT_EQ(a.estimate.has_value(), b.estimate.has_value());
-  if (!a.estimate) return;
-  EXPECT_EQ(Bits(a.estimate->p_CO), Bits(b.estimate->p_CO));
-  EXPECT_EQ(Bits(a.estimate->normal_C), Bits(b.estimate->normal_C));
-  for (size_t i = 0; i < 4; ++i) EXPECT_EQ(Bits(a.estimate->p_CV[i]), Bits(b.estimate->p_CV[i]));
-  ASSERT_EQ(a.estimate->covariance_C.has_value(), b.estimate->covariance_C.has_value());
-  if (a.estimate->covariance_C) {
-    EXPECT_EQ(Bits(*a.estimate->covariance_C), Bits(*b.estimate->covariance_C));
-  }
-}
-
-void ExpectSameBits(const TrialRecord& a, const TrialRecord& b) {
-  EXPECT_EQ(std::tie(a.cell, a.trial, a.part, a.sensor, a.detector),
-            std::tie(b.cell, b.trial, b.part, b.sensor, b.detector));
-  ExpectSameBits(a.levels, b.levels);
-  ExpectSameBits(a.drawn, b.drawn);
-  ExpectSameBits(a.score, b.score);
-  ASSERT_EQ(a.bound_C.has_value(), b.bound_C.has_value());
-  if (a.bound_C) {
-    EXPECT_EQ(Bits(*a.bound_C), Bits(*b.bound_C));
-  }
-  ASSERT_EQ(a.stages.size(), b.stages.size());
-  for (size_t i = 0; i < a.stages.size(); ++i) {
-    EXPECT_EQ(a.stages[i].stage, b.stages[i].stage);
-    EXPECT_EQ(std::bit_cast<uint64_t>(a.stages[i].seconds),
-              std::bit_cast<uint64_t>(b.stages[i].seconds));
-  }
-}
-
-/// Values that texts and number formats are apt to change.
-TrialRecord DifficultRow(int trial) {
-  TrialRecord row = RandomHit(3, trial, "label with spaces, commas");
-  row.part = "näher — 近";
-  row.sensor = SensorKind::kRgbd;
-  row.levels = {{"zulu", 0.1},
-                {"alpha", std::numeric_limits<double>::denorm_min()},
-                {"negative_zero", -0.0},
-                {"whole", 3.0},
-                {"large", 1e300},
-                {"unlimited", -std::numeric_limits<double>::infinity()},
-                {"word", std::string("3.0")},
-                {"quoted \"name\"", std::string("a\"b\\c\nd")},
-                {"flag", false}};
-  row.score.detail = "a \"quoted\", two-line\r\ntext, a NUL" + std::string(1, '\0') + "and 'it'";
-  row.score.estimate->p_CO = {-0.0, 1.0 / 3.0, std::nextafter(2.0, 3.0)};
-  row.score.estimate->covariance_C->setConstant(-0.0);
-  row.score.truth_p_CO = Eigen::Vector3d(5e-324, -0.0, 2.0);
-  row.bound_C = 1e-300 / 3.0 * Eigen::Matrix3d::Identity();
-  row.stages = {{"zeta", 1e-9}, {"Kante finden", 0.0}, {"alpha", 1.0 / 3.0}};
-  return row;
-}
-
-TEST_F(Store, RowsComeBackToTheLastBit) {
-  std::vector<TrialRecord> rows = {DifficultRow(0), Row(3, 1, Outcome::kMissed),
-                                   Row(3, 2, Outcome::kClear), RandomHit(4, 0)};
-  rows[3].score.estimate->covariance_C.reset();
-  {
-    ResultStore store = ResultStore::Create(file_, {{"seed", "2013"}, {"study", "a: 'b'\n"}});
-    for (const TrialRecord& row : rows) store.AddTrial({&row, 1});
-  }
-  const ResultStore store = ResultStore::OpenReadOnly(file_);
-  const std::vector<TrialRecord> read = store.Rows();
-  ASSERT_EQ(read.size(), rows.size());
-  for (size_t i = 0; i < rows.size(); ++i) ExpectSameBits(read[i], rows[i]);
-  EXPECT_EQ(store.Metadata().at("study"), "a: 'b'\n");
-  EXPECT_EQ(store.Metadata().at("schema_version"), "3");
-}
-
-TEST_F(Store, RowsAreOrderedByCellTrialAndDetector) {
-  ResultStore store = ResultStore::Create(file_, {});
-  for (const int trial : {10, 9, 2}) {
-    for (const int cell : {1, 0}) {
-      const std::vector<TrialRecord> rows = {Row(cell, trial, Outcome::kMissed, "b"),
-                                             Row(cell, trial, Outcome::kMissed, "B"),
-                                             Row(cell, trial, Outcome::kMissed, "a")};
-      store.AddTrial(rows);
-    }
-  }
-  const std::vector<TrialRecord> rows = store.Rows();
-  ASSERT_EQ(rows.size(), 18u);
-  for (size_t i = 1; i < rows.size(); ++i) {
-    EXPECT_LT(std::tie(rows[i - 1].cell, rows[i - 1].trial, rows[i - 1].detector),
-              std::tie(rows[i].cell, rows[i].trial, rows[i].detector));
-  }
 }
 
 TEST_F(Store, SeveralThreadsLoseNothing) {
@@ -376,42 +257,6 @@ TEST_F(Store, DamagedStoresAreRefusedAndUntouched) {
   ExpectRefused(file_, "schema version 99");
 }
 
-TEST_F(Store, RowsThatCannotBeAreRefused) {
-  const auto complaint = [&](const std::string& change) -> std::string {
-    {
-      ResultStore store = ResultStore::Create(file_, {});
-      for (int trial = 0; trial < 3; ++trial) {
-        const TrialRecord row = RandomHit(0, trial);
-        store.AddTrial({&row, 1});
-      }
-    }
-    sqlite3* connection = nullptr;
-    EXPECT_EQ(sqlite3_open(file_.c_str(), &connection), SQLITE_OK);
-    EXPECT_EQ(sqlite3_exec(connection, ("UPDATE trials SET " + change).c_str(), nullptr, nullptr,
-                           nullptr),
-              SQLITE_OK)
-        << change;
-    sqlite3_close(connection);
-    std::string text;
-    try {
-      Summarise(ResultStore::OpenReadOnly(file_));
-    } catch (const InputError& error) {
-      text = error.what();
-    }
-    fs::remove(file_);
-    return text;
-  };
-  EXPECT_EQ(complaint("detail = 'other'"), "");
-  EXPECT_THAT(complaint("trial = -7 WHERE trial = 1"), ::testing::HasSubstr("cell or trial -7"));
-  EXPECT_THAT(complaint("cell = 1 << 40 WHERE trial = 1"), ::testing::HasSubstr("cell or trial"));
-  EXPECT_THAT(complaint("estimate_x_m = 1e999"), ::testing::HasSubstr("not finite"));
-  EXPECT_THAT(complaint("truth_x_m = NULL, outcome = 'hit'"),
-              ::testing::HasSubstr("a hit without its error"));
-  EXPECT_THAT(complaint("outcome = 'great'"), ::testing::HasSubstr("unknown outcome"));
-  EXPECT_THAT(complaint("part = 'other' WHERE trial = 1"), ::testing::HasSubstr("not of one cell"));
-  EXPECT_THAT(complaint("levels = '{}' WHERE trial = 1"), ::testing::HasSubstr("not of one cell"));
-}
-
 TEST_F(Store, ARunThatCannotStartLeavesNothing) {
   WriteBytes(folder_ / "file", "in the way");
   EXPECT_THROW(ResultStore::Create(folder_ / "file" / "results.sqlite", {}), InputError);
@@ -419,15 +264,6 @@ TEST_F(Store, ARunThatCannotStartLeavesNothing) {
   EXPECT_THROW(ResultStore::Create(file_, {}), InputError);
   EXPECT_THROW(ResultStore::Create(file_, {}, ResultStore::IfExists::kReplace), InputError);
   EXPECT_THAT(FilesInFolder(), ::testing::UnorderedElementsAre("file", "results.sqlite"));
-}
-
-TEST(RecordJson, ForeignTextIsAnError) {
-  for (const char* text : {"", "{", "[1]", "3", "{\"a\": null}", "{\"a\": [1]}"}) {
-    EXPECT_THROW(FactorsFromJson(text), std::runtime_error) << text;
-    EXPECT_THROW(StageTimesFromJson(text), std::runtime_error) << text;
-    EXPECT_THROW(CornersFromJson(text), std::runtime_error) << text;
-    EXPECT_THROW(MatrixFromJson(text), std::runtime_error) << text;
-  }
 }
 
 }  // namespace

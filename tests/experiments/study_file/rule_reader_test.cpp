@@ -11,7 +11,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::string With(const std::string& lines, const std::string& repetitions = "100") {
+std::string StudyWithRule(const std::string& lines, const std::string& repetitions = "100") {
   return "name: test\nsensors: [stereo]\nrepetitions: " + repetitions + "\n" + lines +
          "\nfactors:\n  distance_m: {from: 1, to: 5, step: 1}\n  azimuth_deg: [10, 0]\n"
          "  rgbd_near_mode: true\nparts: [{name: one, sensors: [stereo, rgbd]}]\n";
@@ -28,7 +28,7 @@ TEST(StudyRules, AreReadWithTheirDefaults) {
   EXPECT_EQ(stopping.parts[0].until->targets,
             (std::vector<StoppingRule::Target>{{StoppingFigure::kHitRate, 0.1},
                                                {StoppingFigure::kBias, 2.0}}));
-  const Study searching = ReadText(With(Envelope("distance_m")));
+  const Study searching = ReadText(StudyWithRule(Envelope("distance_m")));
   EXPECT_EQ(searching.parts[0].envelope->confidence, 0.95);
 }
 
@@ -36,7 +36,7 @@ TEST(StudyRules, WhatIsWrittenIsRead) {
   for (const std::string& lines :
        {std::string("until: {p95_error_mm: 12.5, rmse_mm: 1, first_look: 7}"),
         Envelope("distance_m", "{hit_rate: 0.8, p50_error_mm: 10, p95_error_mm: 50.5}")}) {
-    const Study study = ReadText(With(lines));
+    const Study study = ReadText(StudyWithRule(lines));
     EXPECT_EQ(ReadText(ToYaml(study)), study);
   }
 }
@@ -47,15 +47,17 @@ TEST(StudyRules, RefuseWhatCannotWork) {
       {With("until: {first_look: 10}"), "until needs the width of at least one of hit_rate"},
       {With("until: {hit_rate: 0}"), "hit_rate must be the width of an interval"},
       {With("until: {hit_rate: 0.1, first_look: 0}"), "first_look must be"},
-      {With(Envelope("distance")), "unknown factor 'distance'. Did you mean 'distance_m'?"},
-      {With(Envelope("distance_m", "{}")), "require needs at least one of hit_rate"},
-      {With(Envelope("distance_m", "{hit_rate: 1}")), "hit_rate must be a share"},
+      {StudyWithRule(Envelope("distance")),
+       "unknown factor 'distance'. Did you mean 'distance_m'?"},
+      {StudyWithRule(Envelope("distance_m", "{}")), "require needs at least one of hit_rate"},
+      {StudyWithRule(Envelope("distance_m", "{hit_rate: 1}")), "hit_rate must be a share"},
       {With("envelope: {over: distance_m}"), "an envelope must be {over: FACTOR"},
       {With("envelope: {over: distance_m, require: {hit_rate: 0.9}, confidence: 95}"),
        "confidence must be a number greater than 0.5 and less than 1, not 95"},
-      {With(Envelope("azimuth_deg")), "needs at least 3 rising numbers as levels of azimuth_deg"},
-      {With(Envelope("yaw_deg")), "needs at least 3 rising numbers as levels of yaw_deg"},
-      {With(Envelope("distance_m", "{hit_rate: 0.95}"), "58"),
+      {StudyWithRule(Envelope("azimuth_deg")),
+       "needs at least 3 rising numbers as levels of azimuth_deg"},
+      {StudyWithRule(Envelope("yaw_deg")), "needs at least 3 rising numbers as levels of yaw_deg"},
+      {StudyWithRule(Envelope("distance_m", "{hit_rate: 0.95}"), "58"),
        "58 repetitions cannot show the requirement with 95 % confidence even if all are good; "
        "about 59 can"},
       {With("until: {hit_rate: 0.1}\n" + Envelope("distance_m")),

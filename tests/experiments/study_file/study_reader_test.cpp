@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <stdexcept>
 
-#include "experiments/study_file/factor_reader.h"
-#include "tests/experiments/study_file/study_text.h"
+#include "tests/experiments/study_file/bad_study.h"
 
 namespace fenestra {
 namespace {
@@ -16,21 +14,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string kHead = "name: test\nrepetitions: 2\n";
-
-std::variant<Levels, Distribution> SettingOf(const Study& study, const std::string& factor) {
-  for (const Factor& f : study.parts.front().factors) {
-    if (f.name == factor) return f.setting;
-  }
-  throw std::logic_error("no factor " + factor);
-}
-
-std::variant<Levels, Distribution> ReadFactor(const std::string& name, const std::string& text) {
-  return SettingOf(ReadText(kHead + "factors:\n  " + name + ": " + text + "\n"), name);
-}
-
 TEST(StudyReader, FillsInAllDefaults) {
-  const Study study = ReadText(kHead);
+  const Study study = ReadText(kStudyHead);
   EXPECT_EQ(study.seed, 1u);
   EXPECT_FALSE(study.independent_cells);
   ASSERT_EQ(study.parts.size(), 1u);
@@ -47,42 +32,6 @@ TEST(StudyReader, FillsInAllDefaults) {
                                    [&info](const Factor& f) { return f.name == info.name; });
     EXPECT_EQ(given, GroupOf(info.name) != FactorGroup::kFacade) << info.name;
   }
-}
-
-TEST(StudyReader, ReadsEveryFormOfAFactor) {
-  EXPECT_EQ(ReadFactor("distance_m", "3"), (std::variant<Levels, Distribution>(Levels{3.0})));
-  EXPECT_EQ(std::get<Levels>(ReadFactor("distance_m", "[1.4, 2, 3]")), (Levels{1.4, 2.0, 3.0}));
-  EXPECT_EQ(std::get<Levels>(ReadFactor("target", "[true, false]")), (Levels{true, false}));
-  EXPECT_EQ(std::get<Levels>(ReadFactor("azimuth_deg", "{from: 0, to: 40, step: 10}")),
-            (Levels{0.0, 10.0, 20.0, 30.0, 40.0}));
-  EXPECT_EQ(std::get<Levels>(ReadFactor("azimuth_deg", "{from: -1, to: 1, count: 5}")),
-            (Levels{-1.0, -0.5, 0.0, 0.5, 1.0}));
-  const auto drawn = [](const std::string& text) {
-    return std::get<Distribution>(ReadFactor("yaw_deg", text));
-  };
-  EXPECT_EQ(drawn("{uniform: [-3, 3]}"), Distribution(UniformDistribution{-3.0, 3.0}));
-  EXPECT_EQ(drawn("{log_uniform: [1, 3]}"), Distribution(LogUniformDistribution{1.0, 3.0}));
-  EXPECT_EQ(drawn("{triangular: {min: -1, mode: 0, max: 2}}"),
-            Distribution(TriangularDistribution{-1.0, 0.0, 2.0}));
-  EXPECT_EQ(drawn("{normal: {mean: 1, sd: 2, min: -1, max: 4}}"),
-            Distribution(TruncatedNormalDistribution{1.0, 2.0, -1.0, 4.0}));
-}
-
-// What a normal distribution leaves open ends with the factor's range.
-TEST(StudyReader, AnOpenNormalEndsWithTheRange) {
-  EXPECT_EQ(std::get<Distribution>(ReadFactor("yaw_deg", "{normal: {mean: 1, sd: 2}}")),
-            Distribution(TruncatedNormalDistribution{1.0, 2.0, -180.0, 180.0}));
-  EXPECT_EQ(
-      std::get<Distribution>(ReadFactor("distance_m", "{normal: {mean: 1, sd: 1, min: 0.5}}")),
-      Distribution(TruncatedNormalDistribution{1.0, 1.0, 0.5, 100.0}));
-}
-
-// A tenth of a tenth has no exact double; people still write it as 0.01.
-TEST(StudyReader, RangesReadAsPeopleWriteThem) {
-  EXPECT_EQ(std::get<Levels>(ReadFactor("roll_deg", "{from: -0.3, to: 0.3, step: 0.1}")),
-            (Levels{-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3}));
-  EXPECT_EQ(RoundTo12Digits(0.1 + 0.2), 0.3);
-  EXPECT_EQ(RoundTo12Digits(-1.23456789012345e-7), -1.23456789012e-7);
 }
 
 TEST(StudyReader, PartsOverrideTheStudy) {
@@ -114,24 +63,58 @@ parts:
   EXPECT_EQ(far.detectors[0].name, "other-stereo");
 }
 
-TEST(StudyReader, TellsOptionsFromDefaults) {
-  const Study study = ReadText(kHead +
-                               "detectors:\n  - {name: paper-stereo, label: census-31, options: "
-                               "{window_px: 31, matcher: census}}\n  - paper-stereo\n"
-                               "sensors: [stereo]\n");
-  const std::vector<DetectorChoice>& detectors = study.parts.front().detectors;
-  ASSERT_EQ(detectors.size(), 2u);
-  EXPECT_EQ(detectors[0].label, "census-31");
-  EXPECT_EQ(detectors[0].options.at("window_px"), ParameterValue(31.0));
-  EXPECT_EQ(detectors[0].options.at("matcher"), ParameterValue(std::string("census")));
-  EXPECT_EQ(detectors[1].label, "paper-stereo");
-  EXPECT_EQ(detectors[1].options.at("window_px"), ParameterValue(15.0));
-}
-
 // The corners of what is drawn are tried, not the far ends of a normal distribution.
 TEST(StudyReader, AcceptsWhatIsNeverDrawn) {
-  EXPECT_THAT(FaultsOf(kHead + "factors:\n  window_width_m: {normal: {mean: 1, sd: 0.01}}\n"),
+  EXPECT_THAT(FaultsOf(kStudyHead + "factors:\n  window_width_m: {normal: {mean: 1, sd: 0.01}}\n"),
               IsEmpty());
+}
+
+std::vector<BadStudy> BadStructures() {
+  return {
+      {"a list", "[1, 2]", "1:1: the study must be a mapping"},
+      {"no name", "repetitions: 2\n", "1:1: the study needs a name"},
+      {"name of a path", "name: ../x\nrepetitions: 2\n", "1:7: name must be 1 to 64 of"},
+      {"unknown key", kStudyHead + "sede: 2\n",
+       "3:1: unknown key 'sede' in the study. Did you mean "
+       "'seed'?"},
+      {"negative seed", kStudyHead + "seed: -1\n",
+       "3:7: seed must be a whole number from 0 to "
+       "9223372036854775807"},
+      {"seed too large", kStudyHead + "seed: 9223372036854775808\n", "3:7: seed must be"},
+      {"no repetitions", "name: test\n", "1:1: part 'main' needs repetitions"},
+      {"repetitions 0", "name: test\nrepetitions: 0\n",
+       "2:14: repetitions must be a whole number "
+       "from 1 to 1000000"},
+      {"unknown sensor", kStudyHead + "sensors: [lidar]\n",
+       "3:11: unknown sensor 'lidar'. Known: "
+       "stereo, rgbd."},
+      {"sensor twice", kStudyHead + "sensors: [rgbd, rgbd]\n",
+       "3:17: the sensor 'rgbd' stands twice"},
+      {"no sensors", kStudyHead + "sensors: []\n", "3:10: sensors must be a list"},
+      {"no parts", kStudyHead + "parts: []\n", "3:8: parts must be a list of at least one part"},
+      {"part without name", kStudyHead + "parts:\n  - {repetitions: 3}\n",
+       "4:5: a part needs a name"},
+      {"parts of one name", kStudyHead + "parts:\n  - name: a\n  - name: b\n  - name: a\n",
+       "6:11: two parts are called 'a'"},
+      {"unknown key in a part", kStudyHead + "parts:\n  - name: a\n    factor: {distance_m: 2}\n",
+       "5:5: unknown key 'factor' in a part. Did you mean 'factors'?"},
+  };
+}
+
+class StudyReaderRejects : public BadStudies {};
+
+TEST_P(StudyReaderRejects, WithPositionAndHint) {
+  ExpectFault();
+}
+
+INSTANTIATE_TEST_SUITE_P(Structures, StudyReaderRejects, ::testing::ValuesIn(BadStructures()),
+                         NameOf);
+
+TEST(StudyReader, ReportsAllFaultsInTheOrderOfTheFile) {
+  EXPECT_THAT(FaultsOf("name: test\nrepetitions: many\nseed: 1.5\nfactors:\n  distance_m: [2, x]\n"
+                       "  yaw_deg: {uniform: [1]}\n"),
+              ElementsAre(HasSubstr("2:14: repetitions"), HasSubstr("3:7: seed"),
+                          HasSubstr("5:19: distance_m"), HasSubstr("6:22: uniform of yaw_deg")));
 }
 
 }  // namespace

@@ -28,37 +28,41 @@ TEST(StudySchema, AcceptsEveryStudyThatComesAlong) {
   }
 }
 
-const std::string kHead = "name: test\nrepetitions: 20\n";
+const std::string kSchemaHead = "name: test\nrepetitions: 20\n";
 
 TEST(StudySchema, AcceptsWhatTheReaderAccepts) {
   const nlohmann::json schema = StandInSchema();
   for (const std::string& text : {
-           kHead,
-           kHead + "seed: 9223372036854775807\nindependent_cells: true\n",
-           kHead + "sensors: [rgbd]\ndetectors: [paper-rgbd]\n",
-           kHead + "detectors:\n  - {name: paper-stereo, label: wide, options: {window_px: 31}}\n"
-                   "  - paper-rgbd\n",
-           kHead +
+           kSchemaHead,
+           kSchemaHead + "seed: 9223372036854775807\nindependent_cells: true\n",
+           kSchemaHead + "sensors: [rgbd]\ndetectors: [paper-rgbd]\n",
+           kSchemaHead +
+               "detectors:\n  - {name: paper-stereo, label: wide, options: {window_px: 31}}\n"
+               "  - paper-rgbd\n",
+           kSchemaHead +
                "detectors: [{name: paper-stereo, isolate: true, time_limit_s: 3}, paper-rgbd]\n",
-           kHead + "sensors: [stereo]\ndetectors: [{name: mine, command: [python3, mine.py], "
-                   "sensor: stereo, options: "
-                   "{size_m: 0.8, fast: true, mode: best}, start_limit_s: 20}]\n",
-           kHead + "factors: {distance_m: 2, scene: [facade, paper_target], target: true}\n",
-           kHead + "factors: {azimuth_deg: {from: 0, to: 40, step: 10}, yaw_deg: {from: 0, to: 1, "
-                   "count: 3}}\n",
-           kHead + "factors: {yaw_deg: {uniform: [-1, 1]}, roll_deg: {triangular: {min: 0, mode: "
-                   "1, max: 3}}, pitch_deg: {normal: {mean: 0, sd: 1}}}\n",
-           kHead + "design: sobol\n",
-           kHead +
+           kSchemaHead + "sensors: [stereo]\ndetectors: [{name: mine, command: [python3, mine.py], "
+                         "sensor: stereo, options: "
+                         "{size_m: 0.8, fast: true, mode: best}, start_limit_s: 20}]\n",
+           kSchemaHead + "factors: {distance_m: 2, scene: [facade, paper_target], target: true}\n",
+           kSchemaHead +
+               "factors: {azimuth_deg: {from: 0, to: 40, step: 10}, yaw_deg: {from: 0, to: 1, "
+               "count: 3}}\n",
+           kSchemaHead +
+               "factors: {yaw_deg: {uniform: [-1, 1]}, roll_deg: {triangular: {min: 0, mode: "
+               "1, max: 3}}, pitch_deg: {normal: {mean: 0, sd: 1}}}\n",
+           kSchemaHead + "design: sobol\n",
+           kSchemaHead +
                "design: {method: latin_hypercube, correlations: [{between: [yaw_deg, roll_deg], "
                "spearman: -0.5}]}\nfactors: {yaw_deg: {uniform: [-1, 1]}, roll_deg: {uniform: "
                "[-1, 1]}}\n",
-           kHead + "design: {method: sensitivity, causes: {all: [shot, rig, calibration]}}\n",
-           kHead + "until: {hit_rate: 0.2, p95_error_mm: 10, first_look: 5}\n",
+           kSchemaHead + "design: {method: sensitivity, causes: {all: [shot, rig, calibration]}}\n",
+           kSchemaHead + "until: {hit_rate: 0.2, p95_error_mm: 10, first_look: 5}\n",
            std::string("name: test\nrepetitions: 93\nenvelope: {over: distance_m, require: "
                        "{hit_rate: 0.95, p95_error_mm: 50}, confidence: 0.9}\nfactors: "
                        "{distance_m: {from: 1, to: 2, step: 0.1}}\n"),
-           kHead + "parts:\n  - name: one\n  - {name: two, repetitions: 3, sensors: [stereo]}\n",
+           kSchemaHead +
+               "parts:\n  - name: one\n  - {name: two, repetitions: 3, sensors: [stereo]}\n",
        }) {
     EXPECT_EQ(FaultsOf(text), std::vector<std::string>{}) << text;
     EXPECT_EQ(FaultsBySchema(schema, text), std::vector<std::string>{}) << text;
@@ -70,52 +74,52 @@ TEST(StudySchema, RefusesWhatTheReaderRefuses) {
   for (const std::string& text : {
            std::string("repetitions: 2\n"),
            std::string("name: Not A Name\nrepetitions: 2\n"),
-           kHead + "sede: 3\n",
-           kHead + "seed: -1\n",
-           kHead + "seed: 1.5\n",
-           kHead + "independent_cells: maybe\n",
+           kSchemaHead + "sede: 3\n",
+           kSchemaHead + "seed: -1\n",
+           kSchemaHead + "seed: 1.5\n",
+           kSchemaHead + "independent_cells: maybe\n",
            std::string("name: test\nrepetitions: 0\n"),
            std::string("name: test\nrepetitions: 1000001\n"),
-           kHead + "sensors: []\n",
-           kHead + "sensors: [lidar]\n",
-           kHead + "sensors: [stereo, stereo]\n",
-           kHead + "detectors: [{name: paper-stereo, isolate: perhaps}]\n",
-           kHead + "detectors: [{name: paper-stereo, isolate: true, time_limit_s: 0}]\n",
-           kHead + "detectors: [{name: mine, command: python3, sensor: stereo}]\n",
-           kHead + "detectors: [{name: mine, command: [python3]}]\n",
-           kHead + "detectors: [unknown]\n",
-           kHead + "detectors: [{label: nameless}]\n",
-           kHead + "detectors: [{name: paper-stereo, options: {window_px: 32}}]\n",
-           kHead + "detectors: [{name: paper-stereo, options: {ratio: 0.5}}]\n",
-           kHead + "factors: {distnace_m: 2}\n",
-           kHead + "factors: {distance_m: -2}\n",
-           kHead + "factors: {distance_m: far}\n",
-           kHead + "factors: {distance_m: []}\n",
-           kHead + "factors: {distance_m: [2, 2]}\n",
-           kHead + "factors: {target: 1}\n",
-           kHead + "factors: {scene: facede}\n",
-           kHead + "factors: {stereo_width_px: 752.5}\n",
-           kHead + "factors: {stereo_width_px: {uniform: [100, 200]}}\n",
-           kHead + "factors: {yaw_deg: {uniform: [1]}}\n",
-           kHead + "factors: {yaw_deg: {uniform: [0, 1], normal: {mean: 0, sd: 1}}}\n",
-           kHead + "factors: {yaw_deg: {gaussian: {mean: 0, sd: 1}}}\n",
-           kHead + "factors: {yaw_deg: {normal: {mean: 0, sd: 0}}}\n",
-           kHead + "factors: {yaw_deg: {from: 0, to: 1}}\n",
-           kHead + "factors: {yaw_deg: {from: 0, to: 1, step: 1, count: 2}}\n",
-           kHead + "design: sobel\n",
-           kHead + "design: {methd: sobol}\n",
-           kHead + "design: {correlations: [{between: [yaw_deg], spearman: 0.5}]}\n",
-           kHead + "design: {correlations: [{between: [yaw_deg, roll_deg], spearman: 1}]}\n",
-           kHead + "design: {method: sensitivity, causes: {noise: [schot]}}\n",
-           kHead + "until: {}\n",
-           kHead + "until: {hit_rate: 0}\n",
-           kHead + "until: {hits: 0.5}\n",
-           kHead + "envelope: {over: distance_m}\n",
-           kHead + "envelope: {over: distance, require: {hit_rate: 0.9}}\n",
-           kHead + "envelope: {over: distance_m, require: {}}\n",
-           kHead + "envelope: {over: distance_m, require: {hit_rate: 2}}\n",
-           kHead + "parts: []\n",
-           kHead + "parts: [{repetitions: 2}]\n",
+           kSchemaHead + "sensors: []\n",
+           kSchemaHead + "sensors: [lidar]\n",
+           kSchemaHead + "sensors: [stereo, stereo]\n",
+           kSchemaHead + "detectors: [{name: paper-stereo, isolate: perhaps}]\n",
+           kSchemaHead + "detectors: [{name: paper-stereo, isolate: true, time_limit_s: 0}]\n",
+           kSchemaHead + "detectors: [{name: mine, command: python3, sensor: stereo}]\n",
+           kSchemaHead + "detectors: [{name: mine, command: [python3]}]\n",
+           kSchemaHead + "detectors: [unknown]\n",
+           kSchemaHead + "detectors: [{label: nameless}]\n",
+           kSchemaHead + "detectors: [{name: paper-stereo, options: {window_px: 32}}]\n",
+           kSchemaHead + "detectors: [{name: paper-stereo, options: {ratio: 0.5}}]\n",
+           kSchemaHead + "factors: {distnace_m: 2}\n",
+           kSchemaHead + "factors: {distance_m: -2}\n",
+           kSchemaHead + "factors: {distance_m: far}\n",
+           kSchemaHead + "factors: {distance_m: []}\n",
+           kSchemaHead + "factors: {distance_m: [2, 2]}\n",
+           kSchemaHead + "factors: {target: 1}\n",
+           kSchemaHead + "factors: {scene: facede}\n",
+           kSchemaHead + "factors: {stereo_width_px: 752.5}\n",
+           kSchemaHead + "factors: {stereo_width_px: {uniform: [100, 200]}}\n",
+           kSchemaHead + "factors: {yaw_deg: {uniform: [1]}}\n",
+           kSchemaHead + "factors: {yaw_deg: {uniform: [0, 1], normal: {mean: 0, sd: 1}}}\n",
+           kSchemaHead + "factors: {yaw_deg: {gaussian: {mean: 0, sd: 1}}}\n",
+           kSchemaHead + "factors: {yaw_deg: {normal: {mean: 0, sd: 0}}}\n",
+           kSchemaHead + "factors: {yaw_deg: {from: 0, to: 1}}\n",
+           kSchemaHead + "factors: {yaw_deg: {from: 0, to: 1, step: 1, count: 2}}\n",
+           kSchemaHead + "design: sobel\n",
+           kSchemaHead + "design: {methd: sobol}\n",
+           kSchemaHead + "design: {correlations: [{between: [yaw_deg], spearman: 0.5}]}\n",
+           kSchemaHead + "design: {correlations: [{between: [yaw_deg, roll_deg], spearman: 1}]}\n",
+           kSchemaHead + "design: {method: sensitivity, causes: {noise: [schot]}}\n",
+           kSchemaHead + "until: {}\n",
+           kSchemaHead + "until: {hit_rate: 0}\n",
+           kSchemaHead + "until: {hits: 0.5}\n",
+           kSchemaHead + "envelope: {over: distance_m}\n",
+           kSchemaHead + "envelope: {over: distance, require: {hit_rate: 0.9}}\n",
+           kSchemaHead + "envelope: {over: distance_m, require: {}}\n",
+           kSchemaHead + "envelope: {over: distance_m, require: {hit_rate: 2}}\n",
+           kSchemaHead + "parts: []\n",
+           kSchemaHead + "parts: [{repetitions: 2}]\n",
        }) {
     EXPECT_NE(FaultsOf(text), std::vector<std::string>{}) << text;
     EXPECT_NE(FaultsBySchema(schema, text), std::vector<std::string>{}) << text;

@@ -11,7 +11,7 @@
 namespace fenestra {
 namespace {
 
-StereoRigOptions SmallImages() {
+StereoRigOptions SmallBoardImages() {
   StereoRigOptions options;
   options.width_px = 64;
   options.height_px = 48;
@@ -76,7 +76,7 @@ TEST(BoardCalibrationTest, EveryFactorOfRigAndBoardsIsInTheContent) {
                                                 "stereo_roll_rate_deg_s",
                                                 "stereo_trigger_skew_us"};
   TrialSettings settings;
-  settings.stereo = SmallImages();
+  settings.stereo = SmallBoardImages();
   std::map<std::string, std::string> factor_of_content = {{ContentOf(settings), "none"}};
   for (const ParameterInfo& info : Factors().infos()) {
     if (GroupOf(info.name) != FactorGroup::kStereo) continue;
@@ -90,18 +90,18 @@ TEST(BoardCalibrationTest, EveryFactorOfRigAndBoardsIsInTheContent) {
 }
 
 TEST(BoardCalibrationTest, EachRigAndEachSessionHasItsOwnContent) {
-  const StereoRig rig(SmallImages(), RandomStream(1));
+  const StereoRig rig(SmallBoardImages(), RandomStream(1));
   const RandomStream stream(2);
   const std::string content = ContentOf(rig, {}, stream);
-  EXPECT_EQ(content, ContentOf(StereoRig(SmallImages(), RandomStream(1)), {}, stream));
-  EXPECT_NE(content, ContentOf(StereoRig(SmallImages(), RandomStream(7)), {}, stream));
+  EXPECT_EQ(content, ContentOf(StereoRig(SmallBoardImages(), RandomStream(1)), {}, stream));
+  EXPECT_NE(content, ContentOf(StereoRig(SmallBoardImages(), RandomStream(7)), {}, stream));
   EXPECT_NE(content, ContentOf(rig, {}, RandomStream(3)));
   EXPECT_NE(content, ContentOf(rig.Displaced(Pose::Translation({1e-4, 0.0, 0.0})), {}, stream));
 }
 
 TEST(BoardCalibrationTest, TrialsThatDifferInTheSceneAloneShareACalibration) {
   TrialSettings settings;
-  settings.stereo = SmallImages();
+  settings.stereo = SmallBoardImages();
   for (const ParameterInfo& info : Factors().infos()) {
     if (GroupOf(info.name) == FactorGroup::kStereo) continue;
     TrialSettings other = settings;
@@ -111,7 +111,7 @@ TEST(BoardCalibrationTest, TrialsThatDifferInTheSceneAloneShareACalibration) {
 }
 
 TEST(BoardCalibrationTest, ARigThatMovesIsCalibratedStandingStill) {
-  StereoRigOptions moving = SmallImages();
+  StereoRigOptions moving = SmallBoardImages();
   moving.motion.velocity_B = {5.0, 1.0, -2.0};
   moving.motion.angular_velocity_B = {1.0, 2.0, 3.0};
   moving.trigger_skew_s = 1e-3;
@@ -120,7 +120,7 @@ TEST(BoardCalibrationTest, ARigThatMovesIsCalibratedStandingStill) {
   const auto left = [&](const StereoRigOptions& options) {
     return ShootBoard(StereoRig(options, RandomStream(1)), world, session, RandomStream(2)).left;
   };
-  EXPECT_EQ(cv::norm(left(moving), left(SmallImages())), 0.0);
+  EXPECT_EQ(cv::norm(left(moving), left(SmallBoardImages())), 0.0);
 }
 
 }  // namespace

@@ -27,13 +27,13 @@ StatedCalibration Odd() {
 }
 
 // Asks for the calibration of `content`, and whether it had to be computed.
-struct Answer {
+struct CacheAnswer {
   StatedCalibration calibration;
   bool computed = false;
 };
 
-Answer Ask(const CalibrationCache& cache, const std::string& content) {
-  Answer answer{.calibration = {DesignOf({}), PairMatrix::Zero()}};
+CacheAnswer Ask(const CalibrationCache& cache, const std::string& content) {
+  CacheAnswer answer{.calibration = {DesignOf({}), PairMatrix::Zero()}};
   answer.calibration = cache.Get(content, [&answer] {
     answer.computed = true;
     return Odd();
@@ -72,7 +72,7 @@ TEST(CalibrationCacheTest, TheSameContentIsComputedOnceAndReadToTheBit) {
   const TemporaryFolder folder;
   const CalibrationCache cache(folder.path());
   EXPECT_TRUE(Ask(cache, "a rig\nits boards\n").computed);
-  const Answer again = Ask(CalibrationCache(folder.path()), "a rig\nits boards\n");
+  const CacheAnswer again = Ask(CalibrationCache(folder.path()), "a rig\nits boards\n");
   EXPECT_FALSE(again.computed);
   EXPECT_EQ(again.calibration, Odd());
   EXPECT_TRUE(Ask(cache, "another rig\n").computed);
@@ -119,7 +119,7 @@ TEST(CalibrationCacheTest, ADamagedFileIsComputedAnew) {
   damaged.push_back(good.substr(0, good.size() - 1));
   for (const std::string& bad : damaged) {
     std::ofstream(file, std::ios::binary) << bad;
-    const Answer answer = Ask(cache, "a rig\n");
+    const CacheAnswer answer = Ask(cache, "a rig\n");
     EXPECT_TRUE(answer.computed);
     EXPECT_EQ(answer.calibration, Odd());
     EXPECT_EQ(ReadFile(file), good);

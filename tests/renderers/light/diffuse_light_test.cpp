@@ -4,7 +4,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/io/input_error.h"
 #include "renderers/light/diffuse_light.h"
 #include "renderers/ray_caster.h"
 #include "scenes/facade/facade.h"
@@ -178,11 +177,6 @@ TEST(Interreflection, WhatIsRememberedIsWhatWouldBeFoundAgain) {
   const cv::Mat a = render(used, 0.1);
   const cv::Mat b = render(fresh, 0.1);
   EXPECT_EQ(std::memcmp(a.data, b.data, a.total() * a.elemSize()), 0);
-}
-
-TEST(RayCasterOptions, BouncesOutOfRangeAreRefused) {
-  EXPECT_THROW(RayCaster(ClosedRoom(0.5f, 0.0f), {.bounces = -1}), InputError);
-  EXPECT_THROW(RayCaster(ClosedRoom(0.5f, 0.0f), {.bounces = 1001}), InputError);
 }
 
 }  // namespace

@@ -10,8 +10,6 @@
 namespace fenestra {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Scene WallAndLamp(const Lamp& lamp) {
   Scene scene;
   scene.materials = {Grey(0.5f)};
@@ -43,7 +41,7 @@ TEST(Lamp, LightsAWallByTheInverseSquareAndTheCosine) {
       const Eigen::Vector3d to_lamp = lamp.p_WL - OnWall(u, v);
       const double E = 200.0 * to_lamp.z() / std::pow(to_lamp.norm(), 3);
       // The mean over a pixel of 2 cm: its middle's value to (0.02/1.5)²/4 or so.
-      EXPECT_NEAR(image(v, u), 0.5 / kPi * E, 1e-4 * E) << u << ", " << v;
+      EXPECT_NEAR(image(v, u), 0.5 / std::numbers::pi * E, 1e-4 * E) << u << ", " << v;
     }
   }
 }
@@ -98,7 +96,8 @@ TEST(Lamp, HasTheInfraredThatItIsSaidToHave) {
   EXPECT_EQ(cv::norm(Render(WallAndLamp(lamp), Band::kInfrared), cv::NORM_INF), 0.0);
   lamp.irradiance_830_per_lux = 2e-5;
   const double E = 200.0 * 2e-5 / (1.5 * 1.5);
-  EXPECT_NEAR(Render(WallAndLamp(lamp), Band::kInfrared)(60, 80), 0.5 / kPi * E, 1e-4 * E);
+  EXPECT_NEAR(Render(WallAndLamp(lamp), Band::kInfrared)(60, 80), 0.5 / std::numbers::pi * E,
+              1e-4 * E);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 // The error that the header states.
 constexpr double kBakingError = 0.002;
 // Some hundred single-precision numbers of random rounding, and three products.
-constexpr double kRounding = 3e-7;
+constexpr double kBakeRounding = 3e-7;
 
 // View factor from a small parallel surface to an a x b rectangle at distance c, one corner of
 // which stands straight before it. Source: M. F. Modest, "Radiative Heat Transfer", appendix D,
@@ -53,8 +53,8 @@ TEST(LightBake, OfAnUnobstructedWallIsExactlyOneHalf) {
   for (size_t t = 0; t < traced.opaque().size(); ++t) {
     for (const size_t k : {0u, 1u, 2u}) {
       const View view = ViewOf(bake, 2 * t, k);
-      EXPECT_NEAR(view.sky, 0.5, kRounding);
-      EXPECT_NEAR(view.ground, 0.5, kRounding);
+      EXPECT_NEAR(view.sky, 0.5, kBakeRounding);
+      EXPECT_NEAR(view.ground, 0.5, kBakeRounding);
     }
   }
   EXPECT_TRUE(bake.factors.empty());
@@ -66,9 +66,9 @@ TEST(LightBake, OfATiltedRoofFollowsItsTilt) {
   scene.meshes = {Polygon({{-1, 0, 1}, {1, 0, 1}, {1, 1, 0}, {-1, 1, 0}}, 0)};
   const LightBake bake = Bake(TracedScene(scene));
   const double n_y = std::sqrt(0.5);
-  EXPECT_NEAR(ViewOf(bake, 0, 0).sky, 0.5 * (1.0 + n_y), kRounding);
-  EXPECT_NEAR(ViewOf(bake, 0, 0).ground, 0.5 * (1.0 - n_y), kRounding);
-  EXPECT_NEAR(ViewOf(bake, 1, 0).sky, 0.5 * (1.0 - n_y), kRounding);  // Its underside.
+  EXPECT_NEAR(ViewOf(bake, 0, 0).sky, 0.5 * (1.0 + n_y), kBakeRounding);
+  EXPECT_NEAR(ViewOf(bake, 0, 0).ground, 0.5 * (1.0 - n_y), kBakeRounding);
+  EXPECT_NEAR(ViewOf(bake, 1, 0).sky, 0.5 * (1.0 - n_y), kBakeRounding);  // Its underside.
 }
 
 TEST(LightBake, BehindAPlateLosesThePlatesViewFactor) {
@@ -128,8 +128,8 @@ TEST(LightBake, OfAFacadeIsNothingInsideAndAllOfTheHemisphereElsewhere) {
     const double n_y = static_cast<double>(traced.opaque().normals_W[t].y);
     for (const size_t k : {0u, 1u, 2u}) {
       const View view = ViewOf(bake, 2 * t, k);
-      EXPECT_LE(view.sky, 0.5 * (1.0 + n_y) + kRounding);
-      EXPECT_LE(view.ground, 0.5 * (1.0 - n_y) + kRounding);
+      EXPECT_LE(view.sky, 0.5 * (1.0 + n_y) + kBakeRounding);
+      EXPECT_LE(view.ground, 0.5 * (1.0 - n_y) + kBakeRounding);
       double all = view.sky + view.ground;
       const uint32_t point = bake.corners[2 * t][k];
       for (size_t i = bake.first_factor[point]; i < bake.first_factor[point + 1]; ++i) {

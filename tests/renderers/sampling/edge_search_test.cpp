@@ -3,11 +3,9 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
-#include <set>
 #include <vector>
 
 #include "renderers/ray_caster.h"
-#include "renderers/sampling/film.h"
 #include "renderers/tracing/sobol_samples.h"
 #include "tests/renderers/test_scenes.h"
 
@@ -204,30 +202,6 @@ TEST(EdgeSampling, QuartersOfPixelsGetTheirAreasToo) {
   }
 }
 
-TEST(FilmTest, QuartersFollowASlopeUpToAnEdgeAndNotAcrossIt) {
-  Film film(12, 5, 1);
-  for (int row = 0; row < 5; ++row) {
-    for (int column = 0; column < 12; ++column) {
-      Film::PixelResult pixel{.radiance = {}, .key = column < 8 ? 1u : 2u};
-      pixel.radiance[0] =
-          column < 8 ? 2.0f * static_cast<float>(column) + static_cast<float>(row) : 1000.0f;
-      film.Set({column, row}, pixel);
-    }
-  }
-  film.MarkEdges();
-  const QuarterImages quarters = film.TakeQuarters();
-  const auto quarter = [&](size_t q, int column) { return quarters[q].at<float>(2, column); };
-  // A quarter's centre is 1/4 px off in each direction.
-  EXPECT_FLOAT_EQ(quarter(0, 3), 8.0f - 0.5f - 0.25f);
-  EXPECT_FLOAT_EQ(quarter(1, 3), 8.0f + 0.5f - 0.25f);
-  EXPECT_FLOAT_EQ(quarter(2, 3), 8.0f - 0.5f + 0.25f);
-  EXPECT_FLOAT_EQ(quarter(3, 3), 8.0f + 0.5f + 0.25f);
-  // The last pixel before the edge and the one before it, which has it for a neighbour.
-  EXPECT_FLOAT_EQ(quarter(0, 7), 16.0f);
-  EXPECT_FLOAT_EQ(quarter(1, 6), 14.0f - 0.25f);
-  EXPECT_FLOAT_EQ(quarter(1, 9), 1000.0f);
-}
-
 // The twin with a fault: the base samples alone do not do it.
 TEST(EdgeSampling, FourSamplesAreNotEnough) {
   for (const double tilt_deg : kTilts_deg) {
@@ -257,21 +231,6 @@ TEST(EdgeSampling, PixelsAwayFromEdgesKeepTheirBaseSamples) {
   const double differing = cv::countNonZero(few != many);
   EXPECT_GT(differing, kSize);        // More than a pixel in each row, but
   EXPECT_LT(differing, 5.0 * kSize);  // only a narrow band.
-}
-
-TEST(SobolSamples, StayStratifiedUnderScrambling) {
-  for (const uint32_t pixel : {0u, 1u, 752u * 480u}) {
-    const SobolPoint scramble = ImageScramble(99).OfPixel(pixel);
-    for (const int bits_x : {0, 1, 4, 7, 8}) {  // Shapes of elementary intervals of area 1/256.
-      std::set<std::pair<uint64_t, uint64_t>> intervals;
-      for (size_t i = 0; i < kMostPixelSamples; ++i) {
-        const uint64_t x = OwenScrambled(kSobolTable.x[i], scramble.x);
-        const uint64_t y = OwenScrambled(kSobolTable.y[i], scramble.y);
-        intervals.insert({x >> (32 - bits_x), y >> (24 + bits_x)});
-      }
-      EXPECT_EQ(intervals.size(), 256u) << bits_x;
-    }
-  }
 }
 
 }  // namespace

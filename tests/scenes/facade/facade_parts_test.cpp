@@ -216,25 +216,5 @@ TEST(RoomLamp, GivesItsLuminousFluxInItsOwnRoom) {
   }
 }
 
-TEST(FacadeOptions, AllFaultsAreReportedAtOnce) {
-  FacadeOptions o = CoveredFacade();
-  o.grid.windows_left = -1;
-  o.grid.other_windows_share = 1.5;
-  o.room.lamp_lm = -3.0;
-  o.sill.thickness_m = 0.0;
-  o.drainpipe.x_m = 0.2;  // Before the target.
-  o.cables.distance_m = 0.001;
-  o.railing.bar_spacing_m = 0.0;
-  o.blind.coverage = 1.2;
-  o.plant.paint.reflectance = 0.9;  // More than a green can have.
-  o.seed = std::numeric_limits<double>::quiet_NaN();
-  try {
-    Validate(o);
-    FAIL() << "accepted";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.faults().size(), 10u) << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace fenestra

@@ -9,7 +9,7 @@
 namespace fenestra {
 namespace {
 
-constexpr Solid kStone = 1;
+constexpr Solid kLatticeStone = 1;
 
 SolidLattice ThreeCubed() {
   const std::vector<float> breaks = {0.0f, 1.0f, 2.0f, 3.0f};
@@ -22,9 +22,9 @@ size_t TriangleCount(const SolidSurface& surface, Solid solid) {
 
 TEST(SolidLattice, SurfaceIsClosedAndFacesOutwards) {
   SolidLattice lattice = ThreeCubed();
-  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kStone);
+  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kLatticeStone);
   lattice.Fill({{1, 1, 0}, {2, 2, 3}}, kAir);  // A hole right through.
-  const Mesh mesh = MeshOf(lattice.Surface(SolidLattice::Faces::kAll), kStone, "ring", 0);
+  const Mesh mesh = MeshOf(lattice.Surface(SolidLattice::Faces::kAll), kLatticeStone, "ring", 0);
   EXPECT_TRUE(IsWatertight(mesh));
   // Outward normals make it positive; all coordinates are small integers, so it is exact.
   EXPECT_EQ(EnclosedVolume(mesh), 24.0);
@@ -32,27 +32,27 @@ TEST(SolidLattice, SurfaceIsClosedAndFacesOutwards) {
 
 TEST(SolidLattice, NoFaceStandsBetweenTwoSolids) {
   SolidLattice lattice = ThreeCubed();
-  lattice.Fill({{0, 0, 0}, {1, 1, 1}}, kStone);
-  lattice.Fill({{1, 0, 0}, {2, 1, 1}}, kStone + 1);
+  lattice.Fill({{0, 0, 0}, {1, 1, 1}}, kLatticeStone);
+  lattice.Fill({{1, 0, 0}, {2, 1, 1}}, kLatticeStone + 1);
   const SolidSurface surface = lattice.Surface(SolidLattice::Faces::kAll);
   // Five of each cube's six faces, two triangles each.
-  EXPECT_EQ(TriangleCount(surface, kStone), 10u);
-  EXPECT_EQ(TriangleCount(surface, kStone + 1), 10u);
+  EXPECT_EQ(TriangleCount(surface, kLatticeStone), 10u);
+  EXPECT_EQ(TriangleCount(surface, kLatticeStone + 1), 10u);
 }
 
 TEST(SolidLattice, OfItsBorderTheFrontSurfaceHasOnlyPlusZ) {
   SolidLattice lattice = ThreeCubed();
-  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kStone);
+  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kLatticeStone);
   const Mesh mesh =
-      MeshOf(lattice.Surface(SolidLattice::Faces::kFrontOfLattice), kStone, "front", 0);
+      MeshOf(lattice.Surface(SolidLattice::Faces::kFrontOfLattice), kLatticeStone, "front", 0);
   EXPECT_EQ(mesh.triangles.size(), 18u);
   for (const glm::vec3& p : mesh.positions_W) EXPECT_EQ(p.z, 3.0f);
 }
 
 TEST(SolidSurface, MeshesShareVerticesOnlyBetweenFacesThatLookOneWay) {
   SolidLattice lattice = ThreeCubed();
-  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kStone);
-  const Mesh cube = MeshOf(lattice.Surface(SolidLattice::Faces::kAll), kStone, "cube", 0);
+  lattice.Fill({{0, 0, 0}, {3, 3, 3}}, kLatticeStone);
+  const Mesh cube = MeshOf(lattice.Surface(SolidLattice::Faces::kAll), kLatticeStone, "cube", 0);
   EXPECT_EQ(cube.positions_W.size(), 6u * 16u);
 }
 

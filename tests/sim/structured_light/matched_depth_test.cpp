@@ -22,7 +22,7 @@ StructuredLightOptions Speckle() {
   return options;
 }
 
-Scene WhiteWall() {
+Scene PlainWall() {
   PaperTargetOptions options;
   options.with_target = false;
   return MakePaperTarget(options);
@@ -34,9 +34,9 @@ Lighting Dark() {
   return lighting;
 }
 
-ExplainedDepth Seen(const StructuredLightOptions& options, const Scene& scene,
-                    const Viewpoint& viewpoint, const Lighting& lighting = Dark(),
-                    uint64_t seed = 1) {
+ExplainedDepth SeenByMatching(const StructuredLightOptions& options, const Scene& scene,
+                              const Viewpoint& viewpoint, const Lighting& lighting = Dark(),
+                              uint64_t seed = 1) {
   const StructuredLightSensor sensor(options);
   const RayCaster caster(scene);
   return sensor.ObserveDepth(caster, lighting, RigPose(viewpoint, Pose()), RandomStream(seed));
@@ -79,7 +79,7 @@ double PlaneResidual(const ExplainedDepth& frame) {
 
 TEST(MatchedDepthTest, AWallIsWhereItStands) {
   for (const double z_m : {0.9, 1.5, 2.5, 3.5}) {
-    const ExplainedDepth frame = Seen(Speckle(), WhiteWall(), {.distance_m = z_m});
+    const ExplainedDepth frame = SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m});
     EXPECT_GT(ValidShare(frame), 0.99) << z_m;
     const cv::Rect middle(140, 100, 40, 40);
     const double mean_m = cv::mean(frame.depth.raw(middle))[0] * frame.depth.unit_m;
@@ -93,7 +93,7 @@ TEST(MatchedDepthTest, ResidualsOfAWallFollowThePublishedCurve) {
   // Nothing here was fitted to it.
   for (const double z_m : {1.0, 2.0, 3.0}) {
     const ExplainedDepth frame =
-        Seen(Speckle(), WhiteWall(), {.distance_m = z_m, .azimuth_rad = 0.03});
+        SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m, .azimuth_rad = 0.03});
     const double residual = PlaneResidual(frame);
     EXPECT_NEAR(residual / (1.425e-3 * z_m * z_m), 1.0, 0.35) << z_m;
     RecordProperty("residual_mm_at_" + std::to_string(z_m), std::to_string(1e3 * residual));
@@ -105,7 +105,7 @@ TEST(MatchedDepthTest, DepthsComeInStepsOfTheDisparity) {
     StructuredLightOptions options = Speckle();
     options.disparity_step_px = step_px;
     const ExplainedDepth frame =
-        Seen(options, WhiteWall(), {.distance_m = 2.0, .azimuth_rad = 0.4});
+        SeenByMatching(options, PlainWall(), {.distance_m = 2.0, .azimuth_rad = 0.4});
     std::set<int> steps;
     for (const uint16_t raw : frame.depth.raw) {
       if (raw == 0) continue;
@@ -124,7 +124,7 @@ TEST(MatchedDepthTest, NoiseDiffersFromFrameToFrameAndThePatternStays) {
   StructuredLightOptions options = Speckle();
   options.disparity_step_px = 0.0;
   const StructuredLightSensor sensor(options);
-  const RayCaster caster(WhiteWall());
+  const RayCaster caster(PlainWall());
   const Pose X_WB = RigPose({.distance_m = 1.5}, Pose());
   const auto residual = [&](int frames) {
     StructuredLightOptions averaging = options;
@@ -158,7 +158,7 @@ Holes HolesAroundAPlate(StructuredLightOptions options, double zo_m, double zb_m
   options.depth_focal_px *= 2.0;
   Holes holes;
   for (int i = 0; i < kPlates; ++i) {
-    Scene scene = WhiteWall();
+    Scene scene = PlainWall();
     const auto h = static_cast<float>(zo_m * (60.0 + 13.37 * i) / options.depth_focal_px);
     const auto z = static_cast<float>(zb_m - zo_m);
     scene.meshes.push_back({.name = "plate",
@@ -166,7 +166,7 @@ Holes HolesAroundAPlate(StructuredLightOptions options, double zo_m, double zb_m
                             .triangles = {{0, 1, 2}, {0, 2, 3}},
                             .material = scene.meshes.front().material});
     const ExplainedDepth frame =
-        Seen(options, scene, {.distance_m = zb_m}, Dark(), static_cast<uint64_t>(i));
+        SeenByMatching(options, scene, {.distance_m = zb_m}, Dark(), static_cast<uint64_t>(i));
     for (int v = 190; v < 190 + kRows; ++v) {
       for (int u = 20; u < 620; ++u) {
         if (frame.depth.raw(v, u) != 0) continue;
@@ -201,11 +201,11 @@ TEST(MatchedDepthTest, WithoutAskingForDotsAllAroundHolesAreTooNarrow) {
 
 TEST(MatchedDepthTest, BlackPaintIsLostWithDistanceUnlessItIsBrightInTheInfraRed) {
   const auto share = [](double reflectance_830nm, double z_m) {
-    Scene scene = WhiteWall();
+    Scene scene = PlainWall();
     for (Material& material : scene.materials) {
       material.reflectance_830nm = static_cast<float>(reflectance_830nm);
     }
-    return ValidShare(Seen(Speckle(), scene, {.distance_m = z_m}));
+    return ValidShare(SeenByMatching(Speckle(), scene, {.distance_m = z_m}));
   };
   EXPECT_GT(share(0.05, 0.9), 0.9);
   EXPECT_LT(share(0.05, 1.7), 0.1);
@@ -239,7 +239,7 @@ TEST(MatchedDepthTest, GlassLetsThePatternThroughToTheRoom) {
   facade.room.paint.reflectance_830nm = 0.8;
   const auto middle_mm = [&](bool glass) {
     facade.window.glass = glass;
-    const ExplainedDepth frame = Seen(Speckle(), MakeFacade(facade), {.distance_m = 1.5});
+    const ExplainedDepth frame = SeenByMatching(Speckle(), MakeFacade(facade), {.distance_m = 1.5});
     const cv::Mat1w middle = frame.depth.raw(cv::Rect(150, 110, 20, 20));
     EXPECT_GT(cv::countNonZero(middle), 380) << glass;
     return cv::mean(middle, middle != 0)[0];
@@ -253,7 +253,7 @@ TEST(MatchedDepthTest, AmbientLightDrownsTheDots) {
   const auto share = [](double lux) {
     Lighting lighting;
     lighting.sky.illuminance_lx = lux;
-    return ValidShare(Seen(Speckle(), WhiteWall(), {.distance_m = 2.0}, lighting));
+    return ValidShare(SeenByMatching(Speckle(), PlainWall(), {.distance_m = 2.0}, lighting));
   };
   EXPECT_GT(share(100.0), 0.95);
   EXPECT_LT(share(50000.0), 0.05);
@@ -261,7 +261,7 @@ TEST(MatchedDepthTest, AmbientLightDrownsTheDots) {
 
 TEST(MatchedDepthTest, NothingIsSeenOutsideTheRange) {
   for (const double z_m : {0.3, 0.7, 4.3, 8.0}) {
-    const ExplainedDepth frame = Seen(Speckle(), WhiteWall(), {.distance_m = z_m});
+    const ExplainedDepth frame = SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m});
     for (const uint16_t raw : frame.depth.raw) {
       if (raw == 0) continue;
       EXPECT_GE(raw, 800);
@@ -271,18 +271,18 @@ TEST(MatchedDepthTest, NothingIsSeenOutsideTheRange) {
   }
   StructuredLightOptions near = Speckle();
   near.near_mode = true;
-  EXPECT_GT(ValidShare(Seen(near, WhiteWall(), {.distance_m = 0.5})), 0.95);
+  EXPECT_GT(ValidShare(SeenByMatching(near, PlainWall(), {.distance_m = 0.5})), 0.95);
 }
 
 TEST(MatchedDepthTest, TheParametricModelIsLikeIt) {
   const auto compare = [](double reflectance_830nm, double z_m) {
-    Scene scene = WhiteWall();
+    Scene scene = PlainWall();
     for (Material& material : scene.materials) {
       material.reflectance_830nm = static_cast<float>(reflectance_830nm);
     }
     const Viewpoint viewpoint{.distance_m = z_m, .azimuth_rad = 0.02};
-    const ExplainedDepth speckle = Seen(Speckle(), scene, viewpoint);
-    const ExplainedDepth parametric = Seen({}, scene, viewpoint);
+    const ExplainedDepth speckle = SeenByMatching(Speckle(), scene, viewpoint);
+    const ExplainedDepth parametric = SeenByMatching({}, scene, viewpoint);
     EXPECT_NEAR(ValidShare(parametric), ValidShare(speckle), 0.05)
         << reflectance_830nm << " at " << z_m;
     if (ValidShare(speckle) < 0.95) return;

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "vision/frame/measurement/side_request.h"
-#include "vision/frame/model/frame_knowledge.h"
+#include "vision/frame/measurement/edge_points.h"
+#include "vision/frame/model/frame_prior.h"
 
 namespace fenestra {
 

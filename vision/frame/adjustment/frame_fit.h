@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "vision/frame/adjustment/frame_adjustment.h"
-#include "vision/frame/measurement/side_request.h"
+#include "vision/frame/measurement/edge_points.h"
 #include "vision/frame/model/frame_rectangle.h"
 
 namespace fenestra {

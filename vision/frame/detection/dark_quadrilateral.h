@@ -28,7 +28,8 @@ bool IsClearer(const Dark& a, const Dark& b) {
 /// Finds convex quadrilaterals whose four sides are edges that reach close to the corners and are
 /// each at least `min_darkness` dark on the inside, and for which IsDarkThroughout holds. Returns
 /// at most `most` of them, the clearest first; of several that nearly coincide, only the clearest
-/// is returned.
+/// is returned. Every combination of segments that meet at all four corners is tried, with the
+/// first 256 horizontal segments of each side, so the clearest must come first.
 std::vector<DarkQuadrilateral> FindDarkQuadrilaterals(const cv::Mat1b& image,
                                                       const EdgeSegments& segments,
                                                       const DarknessSettings& settings,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <opencv2/core.hpp>
 #include <vector>
 
 #include "vision/frame/detection/darkness.h"
@@ -34,5 +35,13 @@ struct EdgeSegmentSettings {
 /// is dark below it, a left side is dark on its right. An edge at 45° may be listed under both
 /// neighbouring sides.
 using EdgeSegments = std::array<std::vector<EdgeSegment>, 4>;
+
+/// Finds the straight edges of an image at its own scale. They are neither rated (their darkness is
+/// 0) nor joined. The maxima of the Sobel derivative are located with sub-pixel resolution along
+/// rows (for vertical edges) or columns (for horizontal ones), linked from one row or column to the
+/// next, and split where the chain bends (Ramer, Douglas and Peucker; 0.8 px). The edge at a pixel
+/// must be stronger than noise and, relative to its grey value, stronger than half of what
+/// `min_darkness` requires.
+EdgeSegments FollowEdges(const cv::Mat1b& image, const EdgeSegmentSettings& settings);
 
 }  // namespace fenestra

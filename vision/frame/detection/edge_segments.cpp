@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "vision/frame/detection/edge_chains.h"
+#include "vision/frame/detection/edge_segment.h"
 #include "vision/frame/detection/quadrilateral.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 
 namespace fenestra {
 
-/// Finds the straight edges (edge_chains.h) of an image that are clear enough. Pieces of one line
+/// Finds the straight edges (edge_segment.h) of an image that are clear enough. Pieces of one line
 /// are listed both separately and joined across gaps, since an object in front of a frame cuts its
 /// sides; a joined segment must be as clear in the gap as elsewhere. An image of half the size adds
 /// edges that are straight only at that scale: where a frame is recessed, its edge and the edge of

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "vision/frame/measurement/edge_strips.h"
-#include "vision/frame/measurement/edge_tuning.h"
+#include "vision/frame/measurement/edge_nuisance.h"
+#include "vision/frame/measurement/side_sampling.h"
 
 namespace fenestra {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-#include <vector>
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
@@ -15,20 +14,6 @@ struct CameraView {
   CameraModel camera;
   Pose X_CL;  ///< C is this camera.
   cv::Mat1b image;
-};
-
-/// A place on a side of the frame where an edge was found in the image.
-struct EdgePoint {
-  Side side;
-  Border border;
-  double share;            ///< Share of the way along the side.
-  Eigen::Vector2d normal;  ///< Unit normal of the edge, away from the frame's centre.
-  Eigen::Vector2d pixel;
-  double sigma_px;  ///< Standard deviation of `pixel` along `normal`.
-  /// Standard deviation of an additional error that all points of this side share in this view. It
-  /// comes from the uncertainty of blur, slopes and full scale, and from the imperfection of the
-  /// models of lens and light.
-  double common_sigma_px = 0.0;
 };
 
 /// Nuisance parameters of the edge model for one side (see step_fit.h), estimated while the side is
@@ -74,12 +59,6 @@ struct SideRequest {
 
   double inside_px() const { return border == Border::kOuter ? reach_px : far_px; }
   double outside_px() const { return border == Border::kOuter ? far_px : reach_px; }
-};
-
-struct SideEdges {
-  std::vector<EdgePoint> points;
-  int places = 0;  ///< Where an edge was looked for.
-  EdgeNuisance nuisance;
 };
 
 }  // namespace fenestra

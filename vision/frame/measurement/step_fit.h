@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "vision/frame/measurement/edge_strips.h"
+#include "vision/frame/measurement/side_sampling.h"
 
 namespace fenestra {
 
@@ -44,7 +44,7 @@ class BlurredStep {
 ///     I = a + g (P(s - s0) + t dP/dσ + β_out R(s - s0) - β_in R(s0 - s)),
 ///     t = blur_change τ + blur_bend (τ² - 1/3),   τ from -1 to 1 along the side,
 ///
-/// with P the blurred step and R its ramp (blurred_step.h). Each strip has its own a, g and s0; the
+/// with P the blurred step and R its ramp (BlurredStep). Each strip has its own a, g and s0; the
 /// blur and the slopes β belong to the whole side and are given. A pixel at full scale only says
 /// that the light was at least as bright, so it counts where the model is below full scale and not
 /// where it is above. On sides with such pixels, the steps g are assumed to be nearly equal.

@@ -5,7 +5,7 @@
 
 #include "core/detection/detection.h"
 #include "core/detection/window_prior.h"
-#include "vision/frame/model/frame_knowledge.h"
+#include "vision/frame/model/frame_prior.h"
 #include "vision/frame/model/frame_rectangle.h"
 
 namespace fenestra {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "vision/frame/measurement/frame_border.h"
-#include "vision/frame/measurement/side_profile.h"
+#include "vision/frame/measurement/side_sampling.h"
 
 namespace fenestra {
 namespace {

@@ -6,12 +6,13 @@
 
 namespace fenestra {
 
-/// An edge along a vertical side of a frame, located in space by two views.
+/// An edge along a vertical side of a frame, located in space by two views. Insets are measured
+/// from the side inwards, in the plane of the frame's front.
 struct ParallaxEdge {
   Side side;
   /// Where the first view sees it on the frame's front, from the side inwards.
   double seen_inset_m;
-  double inset_m;           ///< Where it is, from the side inwards.
+  double inset_m;           ///< Where it is.
   double behind_m;          ///< Distance behind the plane of the front.
   double sigma_m;           ///< Standard deviation of behind_m from noise.
   double crowding_m;        ///< Standard deviation of behind_m from a neighbouring edge; 0: none.

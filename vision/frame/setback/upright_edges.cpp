@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "vision/frame/measurement/side_profile.h"
+#include "vision/frame/measurement/side_sampling.h"
 
 namespace fenestra {
 namespace {

@@ -24,6 +24,7 @@ struct DarkCloud {
 ///
 /// The paper leaves two things open. Points are back-projected to metres here, since the diagonals
 /// of its last step are to be in the camera's frame; dark pixels without depth are left out.
+/// Domain: both images have the same size, that of the camera.
 DarkCloud SegmentDark(const RegisteredImages& images, const CameraModel& camera, int dark_below_dn);
 
 /// Makes the cloud of the pixels whose `mask` is not 0, for pixels that are selected in another

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "vision/rgbd/paper/dominant_plane.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 
 namespace fenestra {
 

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "core/detection/detection.h"
+#include "core/geometry/camera_model.h"
+#include "vision/rgbd/paper/cloud_shape.h"
+#include "vision/rgbd/paper/dark_cloud.h"
 #include "vision/rgbd/paper/diagonals.h"
-#include "vision/rgbd/paper/dominant_plane.h"
 #include "vision/rgbd/paper/narf_key_points.h"
 
 namespace fenestra {
@@ -43,5 +45,18 @@ struct FrameVertices {
 /// span the largest quadrilateral there.
 FrameVertices ChooseFrameVertices(const std::vector<KeyPoint>& key_points, const CloudShape& shape,
                                   const PlaneTolerance& tolerance, const VertexLimits& limits);
+
+/// Measures how much of the middle of a quadrilateral is filled: of the pixels within the
+/// quadrilateral shrunk to half its size about its centre, the share for which the cloud has a
+/// point on the plane. It is 0 for a frame whose border is at most a quarter of its side, 1 for a
+/// dark board, and 0 if no pixel is within.
+double FilledShare(const DarkCloud& cloud, const CameraModel& camera, const Plane& plane,
+                   const PlaneTolerance& tolerance, const FourVertices& p_KV);
+
+/// Measures how much of a quadrilateral's least seen side is covered by points of the cloud on the
+/// plane. It is 1 for a frame without holes in its depth, since key points lie on the frame's
+/// border. A place counts as seen if one of the nine pixels around it does.
+double SeenShare(const DarkCloud& cloud, const CameraModel& camera, const Plane& plane,
+                 const PlaneTolerance& tolerance, const FourVertices& p_KV);
 
 }  // namespace fenestra

@@ -3,14 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/io/input_error.h"
+#include "vision/rgbd/paper/dark_cloud.h"
+#include "vision/rgbd/paper/depth_registration.h"
 #include "vision/rgbd/paper/diagonals.h"
 #include "vision/rgbd/paper/frame_vertices.h"
 #include "vision/rgbd/paper/narf_key_points.h"
-#include "vision/rgbd/paper/opening.h"
-#include "vision/rgbd/paper/paper_pictures.h"
 #include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
@@ -20,10 +25,7 @@ namespace {
 constexpr uint64_t kPlaneSeed = 1;
 
 RgbdCalibration Checked(const RgbdCalibration& calibration) {
-  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
-    throw InputError("depth_unit_m",
-                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
-  }
+  CheckDepthUnit(calibration);
   const CameraModel working = WorkingCamera(calibration);
   if (!NarfRangeImage::Supports(working)) {
     throw InputError(
@@ -83,6 +85,38 @@ class StageEnd {
   StageLog& log_;
 };
 
+// Scale of DrawKeyPoints' picture relative to the range image.
+constexpr int kKeyPointPictureScale = 3;
+
+// Marks in the colour image the cloud's pixels green and dark pixels without depth red.
+cv::Mat3b DrawSegmentation(const RegisteredImages& images, const DarkCloud& cloud) {
+  cv::Mat3b drawn = images.color.clone();
+  const cv::Mat1b with_depth = cloud.depth_m > 0.0f;
+  drawn.setTo(cv::Scalar(60, 60, 230), cloud.mask);
+  drawn.setTo(cv::Scalar(80, 200, 80), with_depth);
+  return drawn;
+}
+
+// Draws key points as circles on the cloud's depth, and the chosen four as a closed outline.
+cv::Mat3b DrawKeyPoints(const cv::Mat1f& depth_m, const std::vector<KeyPoint>& key_points,
+                        const std::optional<std::array<int, 4>>& chosen) {
+  constexpr int kScale = kKeyPointPictureScale;
+  cv::Mat3b drawn;
+  cv::resize(DrawDepth(depth_m), drawn, {}, kScale, kScale, cv::INTER_NEAREST);
+  const auto center = [](const KeyPoint& key_point) {
+    return cv::Point(kScale * key_point.pixel.x() + kScale / 2,
+                     kScale * key_point.pixel.y() + kScale / 2);
+  };
+  for (const KeyPoint& key_point : key_points) {
+    cv::circle(drawn, center(key_point), 7, cv::Scalar(255, 255, 255), 2, cv::LINE_AA);
+  }
+  if (!chosen) return drawn;
+  std::vector<cv::Point> outline;
+  for (const int i : *chosen) outline.push_back(center(key_points[static_cast<size_t>(i)]));
+  cv::polylines(drawn, outline, true, cv::Scalar(255, 0, 255), 2, cv::LINE_AA);
+  return drawn;
+}
+
 }  // namespace
 
 PlaneTolerance ToleranceOf(const PaperRgbdOptions& options) {
@@ -110,14 +144,11 @@ PaperRgbdDetector::PaperRgbdDetector(const RgbdCalibration& calibration,
 }
 
 Detection PaperRgbdDetector::Detect(const Observation& observation, StageLog& log) const {
-  const auto* images = std::get_if<RgbdObservation>(&observation);
-  if (images == nullptr) {
-    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
-  }
+  const RgbdObservation& images = RgbdPart(observation);
   const PictureView view{registration_.working_camera(), calibration_.X_KD};
   const StageEnd stage_end(log);
   log.Begin("register");
-  const RegisteredImages registered = registration_.Register(*images);
+  const RegisteredImages registered = registration_.Register(images);
   log.Picture("registered_depth", [&] { return DrawDepth(registered.depth_m); }, {view});
 
   log.Begin("segment");

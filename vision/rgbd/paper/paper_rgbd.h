@@ -2,10 +2,10 @@
 
 #include "core/detection/detector.h"
 #include "core/geometry/calibration.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 #include "vision/rgbd/paper/dark_cloud.h"
 #include "vision/rgbd/paper/depth_registration.h"
 #include "vision/rgbd/paper/diagonals.h"
-#include "vision/rgbd/paper/dominant_plane.h"
 #include "vision/rgbd/paper/paper_rgbd_options.h"
 
 namespace fenestra {
@@ -31,7 +31,7 @@ double SupportSize(const CloudShape& shape, const CameraModel& camera,
 /// The vertices are the key points themselves. NARF places them on stable surface *inside* the
 /// frame's corners, so p_CV lies a few per cent of the side inside the true outline. It does so
 /// equally on opposite sides, which cancels in the centroid to first order. The normal is that of
-/// the plane, and the covariance is that of crossing_covariance.h. The score is the product of the
+/// the plane, and the covariance is that of diagonals.h. The score is the product of the
 /// quadrilateral's share of the cloud's hull, the share of the cloud on its plane, the seen share
 /// of the least seen side, and the free share of the middle.
 ///

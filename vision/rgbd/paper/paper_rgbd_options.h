@@ -60,16 +60,16 @@ struct PaperRgbdOptions {
   /// Shortest side over longest side: windows are not slits.
   double min_side_ratio = 0.25;
 
-  /// Largest share of the quadrilateral's middle that may be dark and on its plane, see opening.h.
-  /// The default of 1 follows the paper, which does not check, so that a dark board or carpet
-  /// passes for a window; 0.5 refuses those.
+  /// Largest share of the quadrilateral's middle that may be dark and on its plane, see
+  /// FilledShare. The default of 1 follows the paper, which does not check, so that a dark board or
+  /// carpet passes for a window; 0.5 refuses those.
   double max_filled_share = 1.0;
   /// Least share of each side of the quadrilateral that must be dark and on its plane. The default
   /// of 0 follows the paper, which does not check. A frame has nearly 1, and about 0.5 where its
   /// paint reflects few dots.
   double min_seen_share = 0.0;
 
-  // Parameters of the covariance, see crossing_covariance.h.
+  // Parameters of the covariance, see diagonals.h.
   /// Standard deviation of the key points' places, as a share of NARF's support size. On paint that
   /// reflects all dots it is 0.03 to 0.04.
   double key_point_sigma_share = 0.05;

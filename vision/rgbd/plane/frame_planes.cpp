@@ -38,7 +38,7 @@ constexpr double kFewReturns = 0.3;
 constexpr double kMovedSigma_m = 0.02;
 // A frame this far from where the settings place it is something else.
 constexpr double kUnexpected = 5.0;
-constexpr double kTold_m = 0.01;
+constexpr double kNominalSigma_m = 0.01;
 constexpr double kInlier = 3.5;
 constexpr double kInPlane = 0.9;  // Share of the points of a surface.
 
@@ -138,6 +138,56 @@ Front SeeFront(const FrameDepth& points, const DepthPlane& wall, const DepthNois
   return front;
 }
 
+// The wall's points and plane, with the points in the opening if they lie in that plane.
+struct Wall {
+  std::vector<DepthPoint> points;
+  DepthPlane plane;
+  bool has_opening;
+};
+
+std::optional<Wall> MeasureWall(const FrameDepth& points, const FrameRectangle& frame,
+                                const DepthPlane& start, const DepthNoise& noise) {
+  auto plane = MeasureDepthPlane(points.wall, start.m, noise, kLeastWall);
+  if (!plane || !IsKnownAt(*plane, frame.ToEstimate().p_CV)) return std::nullopt;
+  if (!AreInPlane(points.inside, *plane, noise)) return Wall{points.wall, *plane, false};
+  std::vector<DepthPoint> all = points.wall;
+  all.insert(all.end(), points.inside.begin(), points.inside.end());
+  if (const auto both = MeasureDepthPlane(all, plane->m, noise, kLeastWall)) plane = both;
+  return Wall{std::move(all), *plane, true};
+}
+
+// The setback of the front, its standard deviation, and the one with which the wall enters a fit.
+struct SetbackFound {
+  double setback_m;
+  double sigma_m;
+  double fitted_sigma_m;
+};
+
+std::variant<SetbackFound, Miss> ChooseSetback(const Front& seen, bool is_painted,
+                                               const FramePlaneSettings& settings) {
+  SetbackFound found{.setback_m = settings.setback_m,
+                     .sigma_m = is_painted ? 0.0 : settings.setback_sigma_m,
+                     .fitted_sigma_m = 0.0};
+  if (settings.fits_setback) found.fitted_sigma_m = found.sigma_m;
+  if (!seen.offset) return found;
+  const double off_m = std::abs(seen.offset->setback_m - settings.setback_m);
+  const double sigma_m = std::hypot(found.sigma_m, seen.offset->sigma_m, kNominalSigma_m);
+  if (!is_painted && off_m > kUnexpected * sigma_m) {
+    return Miss{"unexpected_setback",
+                fmt::format("what is seen between the frame's edges is {:.3f} m behind the wall, "
+                            "not {:.3f} m",
+                            seen.offset->setback_m, settings.setback_m)};
+  }
+  // A few returns are better than none.
+  const double surely_m = seen.is_whole ? kOtherwise * seen.offset->sigma_m : 0.0;
+  if (!is_painted && off_m > std::max(kOtherwise_m, surely_m)) {
+    found.setback_m = seen.offset->setback_m;
+    if (seen.is_whole) found.fitted_sigma_m = kFree_m;
+  }
+  found.sigma_m = std::min(found.sigma_m, seen.offset->sigma_m);
+  return found;
+}
+
 }  // namespace
 
 std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>& points,
@@ -150,20 +200,13 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
               {.clear_px = settings.clear_px,
                .wall = kWallReach,
                .read = settings.noise.window_points / std::pow(settings.noise.window_px, 2)});
-  auto measured = MeasureDepthPlane(found.points.wall, wall.m, settings.noise, kLeastWall);
-  if (!measured || !IsKnownAt(*measured, frame.ToEstimate().p_CV)) {
+  auto wall_found = MeasureWall(found.points, frame, wall, settings.noise);
+  if (!wall_found) {
     return Miss{"no_depth", fmt::format("{} depth pixels of the wall around the frame",
                                         found.points.wall.size())};
   }
-  const bool opening_is_in_plane = AreInPlane(found.points.inside, *measured, settings.noise);
-  if (opening_is_in_plane) {
-    found.points.wall.insert(found.points.wall.end(), found.points.inside.begin(),
-                             found.points.inside.end());
-    const auto both = MeasureDepthPlane(found.points.wall, measured->m, settings.noise, kLeastWall);
-    if (both) measured = both;
-  }
-  found.wall = *measured;
-  found.setback_m = settings.setback_m;
+  found.points.wall = std::move(wall_found->points);
+  found.wall = wall_found->plane;
   if (IsOpen(found.points, found.wall, settings.setback_m)) {
     return Miss{"open_border", "what is seen between the frame's edges is far behind them"};
   }
@@ -172,26 +215,12 @@ std::variant<FramePlanes, Miss> MeasureFramePlanes(const std::vector<DepthPoint>
   }
   const Front seen = SeeFront(found.points, found.wall, settings.noise);
   // A frame with wall within it is painted on the wall.
-  const bool is_painted = opening_is_in_plane && settings.setback_m == 0.0;
-  found.setback_sigma_m = is_painted ? 0.0 : settings.setback_sigma_m;
-  double fitted_sigma_m = settings.fits_setback ? found.setback_sigma_m : 0.0;
-  if (seen.offset) {
-    const double off_m = std::abs(seen.offset->setback_m - settings.setback_m);
-    const double sigma_m = std::hypot(found.setback_sigma_m, seen.offset->sigma_m, kTold_m);
-    if (!is_painted && off_m > kUnexpected * sigma_m) {
-      return Miss{"unexpected_setback",
-                  fmt::format("what is seen between the frame's edges is {:.3f} m behind the wall, "
-                              "not {:.3f} m",
-                              seen.offset->setback_m, settings.setback_m)};
-    }
-    // A few returns are better than none.
-    const double surely_m = seen.is_whole ? kOtherwise * seen.offset->sigma_m : 0.0;
-    if (!is_painted && off_m > std::max(kOtherwise_m, surely_m)) {
-      found.setback_m = seen.offset->setback_m;
-      if (seen.is_whole) fitted_sigma_m = kFree_m;
-    }
-    found.setback_sigma_m = std::min(found.setback_sigma_m, seen.offset->sigma_m);
-  }
+  const bool is_painted = wall_found->has_opening && settings.setback_m == 0.0;
+  const auto setback = ChooseSetback(seen, is_painted, settings);
+  if (const Miss* miss = std::get_if<Miss>(&setback)) return *miss;
+  const auto& [setback_m, sigma_m, fitted_sigma_m] = std::get<SetbackFound>(setback);
+  found.setback_m = setback_m;
+  found.setback_sigma_m = sigma_m;
   found.planes.push_back(WallMeasurement(found.wall, found.setback_m, fitted_sigma_m));
   if (!seen.is_whole) return found;
   const auto own = MeasureDepthPlane(found.points.border, Behind(found.wall.m, found.setback_m),

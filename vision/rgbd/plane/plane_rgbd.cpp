@@ -4,16 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/detection/observation.h"
 #include "core/io/input_error.h"
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
+#include "vision/rgbd/plane/depth_points.h"
 #include "vision/rgbd/plane/frame_paint.h"
 #include "vision/rgbd/plane/frame_planes.h"
-#include "vision/rgbd/plane/linear_grey.h"
-#include "vision/rgbd/plane/plane_pictures.h"
 #include "vision/rgbd/rgbd_images.h"
 
 namespace fenestra {
@@ -31,10 +32,7 @@ constexpr double kMostUneven = 4.0;
 constexpr double kBlack_dn = 8.0;
 
 const RgbdCalibration& Checked(const RgbdCalibration& calibration) {
-  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
-    throw InputError("depth_unit_m",
-                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
-  }
+  CheckDepthUnit(calibration);
   return calibration;
 }
 
@@ -51,12 +49,27 @@ DepthNoise NoiseOf(const RgbdCalibration& calibration, const PlaneRgbdOptions& o
           .farthest = options.depth_to_m > 0.0 ? 1.0 / options.depth_to_m : 0.0};
 }
 
-const RgbdObservation& RgbdPart(const Observation& observation) {
-  const auto* rgbd = std::get_if<RgbdObservation>(&observation);
-  if (rgbd == nullptr) {
-    throw InputError("observation", "a stereo observation was given to an RGB-D detector");
+// Marks in a depth image the points that were used: the wall green, points off its plane red, and
+// the frame's front yellow.
+cv::Mat3b DrawDepthUse(const DepthImage& depth, const FramePlanes& planes,
+                       const DepthPointReader& reader) {
+  cv::Mat1f depth_m;
+  depth.raw.convertTo(depth_m, CV_32F, depth.unit_m);
+  cv::Mat3b picture;
+  DrawDepth(depth_m).convertTo(picture, CV_8U, 0.4);
+  const auto mark = [&](const DepthPoint& point, const cv::Vec3b& colour) {
+    const cv::Rect place =
+        cv::Rect(point.pixel.x - reader.columns() / 2, point.pixel.y - reader.rows() / 2,
+                 reader.columns(), reader.rows()) &
+        cv::Rect({0, 0}, picture.size());
+    picture(place).setTo(colour);
+  };
+  for (size_t i = 0; i < planes.points.wall.size(); ++i) {
+    mark(planes.points.wall[i],
+         planes.wall.is_inlier[i] ? cv::Vec3b(80, 200, 80) : cv::Vec3b(60, 60, 230));
   }
-  return *rgbd;
+  for (const DepthPoint& point : planes.points.border) mark(point, {60, 220, 230});
+  return picture;
 }
 
 }  // namespace

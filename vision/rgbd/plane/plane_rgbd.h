@@ -13,7 +13,7 @@ namespace fenestra {
 /// surrounding wall in the depth image, and fits one rectangle to both.
 ///
 ///   stage      what                                                  where
-///   read       colour as light, depth as rays with inverse depths    linear_grey, depth_points
+///   read       colour as light, depth as rays with inverse depths    rgbd_images, depth_points
 ///   segments   straight edges, grouped by the side that they may be  edge_segments
 ///   propose    dark quadrilaterals                                   dark_quadrilateral
 ///   plane      those that are rectangles on the plane around them    plane_seed

@@ -28,7 +28,11 @@ struct PlaneSeeds {
 };
 
 /// Finds the candidates that are rectangles on the plane around them. `color` is the colour camera
-/// without its distortion.
+/// without its distortion. A candidate counts as without a plane if fewer than 40 points around it,
+/// or fewer than 40 % of them, lie on one plane, or if the plane's depth is uncertain at its
+/// corners (IsKnownAt). It is dropped if its corners, where their rays meet that plane, do not form
+/// a rectangle within the limits. Sides that the reveal would hide are moved to the wall's edge
+/// (WithHiddenSides).
 PlaneSeeds FindPlaneSeeds(const std::vector<DarkQuadrilateral>& candidates,
                           const std::vector<DepthPoint>& points, const CameraModel& color,
                           const Pose& X_KD, const PlaneSeedSettings& settings);

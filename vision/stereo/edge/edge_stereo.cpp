@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/io/faults.h"
-#include "core/io/input_error.h"
 #include "vision/frame/detection/edge_segments.h"
 #include "vision/frame/frame_pictures.h"
 #include "vision/frame/frame_score.h"
@@ -20,14 +19,6 @@ using Table = ParameterTable<Options>;
 constexpr double kInnerContrast = 0.4;
 constexpr double kOpening = 0.5;  // Least share of the places along the inner sides.
 constexpr double kLight = 0.9;    // See BrightBand.
-
-const StereoObservation& StereoPart(const Observation& observation) {
-  const auto* stereo = std::get_if<StereoObservation>(&observation);
-  if (stereo == nullptr) {
-    throw InputError("observation", "is of an RGB-D sensor; this detector needs a stereo pair");
-  }
-  return *stereo;
-}
 
 }  // namespace
 

@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "core/io/input_error.h"
 #include "vision/frame/detection/darkness.h"
+#include "vision/stereo/paper/block_matching.h"
 #include "vision/stereo/paper/closed_contour.h"
-#include "vision/stereo/paper/guided_matching.h"
-#include "vision/stereo/paper/stage_pictures.h"
 #include "vision/stereo/paper/window_rectangle.h"
 #include "vision/stereo/rectification.h"
 
@@ -34,12 +33,26 @@ FrameCriteria Criteria(const PaperStereoOptions& options) {
           .prior = options.prior};
 }
 
-const StereoObservation& StereoPart(const Observation& observation) {
-  const auto* stereo = std::get_if<StereoObservation>(&observation);
-  if (stereo == nullptr) {
-    throw InputError("observation", "is of an RGB-D sensor; this detector needs a stereo pair");
-  }
-  return *stereo;
+// Draws depth in false colours, near red and far blue; pixels without depth are black.
+cv::Mat3b DrawDepth(const cv::Mat1f& depth_m, const DepthRange& range) {
+  // Equal steps of colour are equal steps of 1/z, and so of disparity.
+  cv::Mat1f inverse;
+  cv::divide(1.0, depth_m, inverse);
+  const double far = 1.0 / range.farthest_m;
+  const double scale = 255.0 / (1.0 / range.nearest_m - far);
+  cv::Mat1b gray;
+  inverse.convertTo(gray, CV_8U, scale, -scale * far);
+  cv::Mat3b picture;
+  cv::applyColorMap(gray, picture, cv::COLORMAP_TURBO);
+  picture.setTo(cv::Scalar::all(0), depth_m <= 0.0f);
+  return picture;
+}
+
+// Places DetectEdges' result for a box of an image into an image of the given size.
+cv::Mat1b DrawEdges(const cv::Mat1b& edges, const cv::Rect& box, const cv::Size& size) {
+  cv::Mat1b whole(size.height + 2 * kEdgeRim_px, size.width + 2 * kEdgeRim_px, uint8_t{0});
+  edges.copyTo(whole(cv::Rect(box.tl(), edges.size())));
+  return whole(cv::Rect({kEdgeRim_px, kEdgeRim_px}, size)).clone();
 }
 
 }  // namespace

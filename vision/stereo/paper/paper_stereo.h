@@ -22,7 +22,7 @@ BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
 ///   stage         what                                                       where
 ///   rectify       Bouguet's rectification of both images                     rectification.h
 ///   match         SAD block matching                                         block_matching.h
-///   depth_image   z = f B / d                                                depth_image.h
+///   depth_image   z = f B / d                                                closed_contour.h
 ///   close_gaps    connected components; one closed contour from two bands    frame_hypothesis.h
 ///   edges         Canny on the depth image                                   closed_contour.h
 ///   contour       the closed contour's four sides                            quadrilateral.h
@@ -30,7 +30,7 @@ BlockMatchingSettings MatchingSettings(const PaperStereoOptions& options,
 ///
 /// Estimates are in L, the unrectified left camera. Their covariance, given the calibration, is
 /// derived from the plane's residuals and two stated errors of block matching
-/// (window_covariance.h). The window with the best score is reported and names the others. Pictures
+/// (window_rectangle.h). The window with the best score is reported and names the others. Pictures
 /// in the log: "rectified", "depth_image", and for the best window "closed_contour" and "edges".
 ///
 /// Departures from the paper, which is brief: contours are closed across the frame's horizontal

@@ -35,9 +35,9 @@ struct PaperStereoOptions {
   /// Off by default, since the paper names no such check and the uniqueness test addresses the same
   /// faults.
   bool left_right_check = false;
-  /// Searches again near the first result if that contains no frame, see guided_matching.h. Without
-  /// it a frame's right side is lost where its double is in range, i.e. for 1 m frames beyond 4.6
-  /// m.
+  /// Searches again near the first result if that contains no frame, see MatchAgainNearPatches.
+  /// Without it a frame's right side is lost where its double is in range, i.e. for 1 m frames
+  /// beyond 4.6 m.
   bool guided_search = true;
 
   // Gap closing.

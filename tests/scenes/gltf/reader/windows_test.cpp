@@ -17,7 +17,7 @@ using testing::Refusal;
 using testing::TriangleDocument;
 
 // A product or two of doubles of order one.
-constexpr double kTolerance = 1e-14;
+constexpr double kWindowTolerance = 1e-14;
 
 json WithWindow(const char* role, double width_m, double height_m) {
   json document = TriangleDocument();
@@ -37,7 +37,7 @@ TEST(GltfWindows, ExtrasMarkTheTargetInItsNodesFrame) {
   EXPECT_EQ(target->height_m, 0.9);
   EXPECT_EQ(target->Centroid_W(), Vector3d(1, 2, 3));
   const Vector3d normal_W = target->X_WO.rotation().col(2);
-  EXPECT_LT((normal_W - Vector3d::UnitX()).norm(), kTolerance);
+  EXPECT_LT((normal_W - Vector3d::UnitX()).norm(), kWindowTolerance);
 }
 
 TEST(GltfWindows, ScaleMultipliesTheSizesThroughAllAncestors) {
@@ -47,9 +47,9 @@ TEST(GltfWindows, ScaleMultipliesTheSizesThroughAllAncestors) {
   document["scenes"][0]["nodes"] = {1};
   const auto target = ReadDocument(document).scene.target;
   ASSERT_TRUE(target);
-  EXPECT_NEAR(target->width_m, 20.0, 20.0 * kTolerance);
-  EXPECT_NEAR(target->height_m, 15.0, 15.0 * kTolerance);
-  EXPECT_LT((target->X_WO.rotation() - Eigen::Matrix3d::Identity()).norm(), kTolerance);
+  EXPECT_NEAR(target->width_m, 20.0, 20.0 * kWindowTolerance);
+  EXPECT_NEAR(target->height_m, 15.0, 15.0 * kWindowTolerance);
+  EXPECT_LT((target->X_WO.rotation() - Eigen::Matrix3d::Identity()).norm(), kWindowTolerance);
 }
 
 TEST(GltfWindows, ShearedAndMirroredOnesAreRefused) {
@@ -73,9 +73,9 @@ TEST(GltfWindows, ANamedNodesBoundingBoxGivesTheRectangle) {
   document["scenes"][0]["nodes"] = {0, 1};
   const auto target = ReadDocument(document, {.target_node = "frame"}).scene.target;
   ASSERT_TRUE(target);
-  EXPECT_NEAR(target->width_m, 2.0, kTolerance);
-  EXPECT_NEAR(target->height_m, 4.0, kTolerance);
-  EXPECT_LT((target->Centroid_W() - Vector3d(11.0, 20.0, 30.5)).norm(), 100 * kTolerance);
+  EXPECT_NEAR(target->width_m, 2.0, kWindowTolerance);
+  EXPECT_NEAR(target->height_m, 4.0, kWindowTolerance);
+  EXPECT_LT((target->Centroid_W() - Vector3d(11.0, 20.0, 30.5)).norm(), 100 * kWindowTolerance);
 }
 
 TEST(GltfWindows, ANamedTargetMakesTheMarkedOneAnother) {

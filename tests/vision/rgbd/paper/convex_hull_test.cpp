@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper/convex_hull.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper/dominant_plane.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr PlaneTolerance kTolerance{.fixed_m = 0.005, .per_z2 = 0.005};
+constexpr PlaneTolerance kPlaneTolerance{.fixed_m = 0.005, .per_z2 = 0.005};
 const Vector3d kNormal = Vector3d(0.2, -0.1, -1.0).normalized();
 constexpr double kOffset = -2.0;
 
@@ -25,7 +25,7 @@ std::vector<Vector3d> OnPlane(int count, const RandomStream& random) {
 }
 
 TEST(DominantPlane, OfPlanarPointsIsExactAndFacesTheCamera) {
-  const auto plane = DominantPlane(OnPlane(500, RandomStream(1)), kTolerance, RandomStream(2));
+  const auto plane = DominantPlane(OnPlane(500, RandomStream(1)), kPlaneTolerance, RandomStream(2));
   ASSERT_TRUE(plane);
   EXPECT_LT((plane->normal_K - kNormal).norm(), 1e-12);
   EXPECT_NEAR(plane->offset_m, kOffset, 1e-12);
@@ -39,7 +39,7 @@ TEST(DominantPlane, IgnoresFortyPercentOfOutliers) {
                      3.0 + random.Uniform(3 * i + 2));
     points.push_back(p);
   }
-  const auto plane = DominantPlane(points, kTolerance, RandomStream(2));
+  const auto plane = DominantPlane(points, kPlaneTolerance, RandomStream(2));
   ASSERT_TRUE(plane);
   EXPECT_LT((plane->normal_K - kNormal).norm(), 1e-12);
   EXPECT_NEAR(plane->offset_m, kOffset, 1e-12);
@@ -50,7 +50,7 @@ TEST(DominantPlane, ErrorOfItsDistanceFallsWithTheNumberOfPoints) {
   std::vector<Vector3d> points = OnPlane(4000, RandomStream(1));
   const RandomStream noise(4);
   for (size_t i = 0; i < points.size(); ++i) points[i].z() += sigma_m * noise.Normal(i);
-  const auto plane = DominantPlane(points, kTolerance, RandomStream(2));
+  const auto plane = DominantPlane(points, kPlaneTolerance, RandomStream(2));
   ASSERT_TRUE(plane);
   // The distance at the mean of N points has σ/√N = 0.1 mm; 5 σ are a false alarm of 6e-7.
   const Vector3d middle(0.0, 0.0, kOffset / kNormal.z());
@@ -58,8 +58,8 @@ TEST(DominantPlane, ErrorOfItsDistanceFallsWithTheNumberOfPoints) {
 }
 
 TEST(DominantPlane, IsNotThereForTooFewOrCollinearPointsOrEdgeOn) {
-  EXPECT_FALSE(DominantPlane({}, kTolerance, RandomStream(2)));
-  EXPECT_FALSE(DominantPlane({{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, kTolerance, RandomStream(2)));
+  EXPECT_FALSE(DominantPlane({}, kPlaneTolerance, RandomStream(2)));
+  EXPECT_FALSE(DominantPlane({{0.0, 0.0, 1.0}, {1.0, 0.0, 1.0}}, kPlaneTolerance, RandomStream(2)));
   std::vector<Vector3d> line;
   std::vector<Vector3d> edge_on;
   for (int i = 0; i < 20; ++i) {

@@ -1,4 +1,4 @@
-#include "vision/rgbd/paper/opening.h"
+#include "vision/rgbd/paper/frame_vertices.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/random/random_stream.h"
-#include "vision/rgbd/paper/convex_hull.h"
+#include "vision/rgbd/paper/cloud_shape.h"
 
 namespace fenestra {
 namespace {

@@ -18,12 +18,12 @@ using testing::Look;
 using testing::PoseOfWindow;
 using testing::RegisteredCalibration;
 
-Detection Detect(const RgbdCalibration& calibration, const RgbdObservation& observation) {
+Detection DetectBeside(const RgbdCalibration& calibration, const RgbdObservation& observation) {
   StageLog log(SteadyClock());
   return PlaneRgbdDetector(calibration, {}).Detect(observation, log);
 }
 
-WindowEstimate Found(const Detection& detection) {
+WindowEstimate EstimateIn(const Detection& detection) {
   const auto* estimate = std::get_if<WindowEstimate>(&detection);
   EXPECT_NE(estimate, nullptr) << std::get<Miss>(detection).detail;
   return estimate == nullptr ? WindowEstimate{} : *estimate;
@@ -54,11 +54,11 @@ double LargestDifference(const WindowEstimate& one, const WindowEstimate& mirror
 // Rounding, see edge_stereo_mirror_test.cpp; 1e-8 m has been seen.
 constexpr double kRounding_m = 1e-7;
 
-struct Sight {
+struct MirrorSight {
   Look look;
   bool registered = false;
 };
-class PlaneRgbdMirror : public ::testing::TestWithParam<Sight> {};
+class PlaneRgbdMirror : public ::testing::TestWithParam<MirrorSight> {};
 
 TEST_P(PlaneRgbdMirror, MirroredImagesMirrorTheEstimateExactly) {
   const RgbdCalibration calibration =
@@ -68,8 +68,8 @@ TEST_P(PlaneRgbdMirror, MirroredImagesMirrorTheEstimateExactly) {
   const testing::ExactKinectPicture picture = testing::ExactPicture(calibration, scene);
   for (uint64_t seed = 1; seed <= 4; ++seed) {
     const RgbdObservation seen = testing::WithNoise(picture, calibration, {}, RandomStream(seed));
-    const WindowEstimate one = Found(Detect(calibration, seen));
-    const WindowEstimate other = Found(Detect(Mirrored(calibration), Mirrored(seen)));
+    const WindowEstimate one = EstimateIn(DetectBeside(calibration, seen));
+    const WindowEstimate other = EstimateIn(DetectBeside(Mirrored(calibration), Mirrored(seen)));
     EXPECT_LT(LargestDifference(one, other), kRounding_m) << seed;
     EXPECT_NEAR(other.covariance_C->trace() / one.covariance_C->trace(), 1.0, 1e-6);
     // The twin with a fault: other cameras' colour image, off by a hundredth of a pixel.
@@ -77,18 +77,19 @@ TEST_P(PlaneRgbdMirror, MirroredImagesMirrorTheEstimateExactly) {
     CameraParameters p = calibration.color.parameters();
     p.cx_px += 0.01;
     shifted.color = CameraModel(p);
-    EXPECT_GT(LargestDifference(Found(Detect(shifted, seen)), other), kRounding_m) << seed;
+    EXPECT_GT(LargestDifference(EstimateIn(DetectBeside(shifted, seen)), other), kRounding_m)
+        << seed;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Views, PlaneRgbdMirror,
-    ::testing::Values(Sight{{.distance_m = 1.5, .azimuth_rad = 0.05}},
-                      Sight{{.distance_m = 2.0, .azimuth_rad = 0.05, .roll_rad = 0.1}},
-                      Sight{{.distance_m = 2.5, .azimuth_rad = 0.8, .yaw_rad = 0.05}},
-                      Sight{{.distance_m = 3.5, .azimuth_rad = -0.5, .roll_rad = -0.2}},
-                      Sight{{.distance_m = 2.0, .azimuth_rad = -0.4}, true},
-                      Sight{{.distance_m = 3.0, .azimuth_rad = 0.1}, true}));
+    ::testing::Values(MirrorSight{{.distance_m = 1.5, .azimuth_rad = 0.05}},
+                      MirrorSight{{.distance_m = 2.0, .azimuth_rad = 0.05, .roll_rad = 0.1}},
+                      MirrorSight{{.distance_m = 2.5, .azimuth_rad = 0.8, .yaw_rad = 0.05}},
+                      MirrorSight{{.distance_m = 3.5, .azimuth_rad = -0.5, .roll_rad = -0.2}},
+                      MirrorSight{{.distance_m = 2.0, .azimuth_rad = -0.4}, true},
+                      MirrorSight{{.distance_m = 3.0, .azimuth_rad = 0.1}, true}));
 
 }  // namespace
 }  // namespace fenestra

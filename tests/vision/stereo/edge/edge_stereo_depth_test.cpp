@@ -16,13 +16,13 @@ using testing::PaperRig;
 using testing::View;
 using testing::WindowSeenFrom;
 
-constexpr double kNoise_dn = 2.0;
+constexpr double kDepthNoise_dn = 2.0;
 
 WindowEstimate Find(const ExactFrame& frame, uint64_t seed) {
   const StereoCalibration rig = PaperRig();
   StageLog log(SteadyClock());
-  const Detection detection =
-      EdgeStereoDetector(rig, {}).Detect(ExactPair(rig, frame, kNoise_dn, RandomStream(seed)), log);
+  const Detection detection = EdgeStereoDetector(rig, {}).Detect(
+      ExactPair(rig, frame, kDepthNoise_dn, RandomStream(seed)), log);
   const Miss* miss = std::get_if<Miss>(&detection);
   EXPECT_EQ(miss, nullptr) << miss->reason << ": " << miss->detail;
   return miss == nullptr ? std::get<WindowEstimate>(detection) : WindowEstimate{};
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Views, SetBack,
                                            View{.distance_m = 8.0, .azimuth_deg = 10.0}));
 
 // Half the images' size, so that frames count as twice as far away.
-StereoCalibration SmallRig() {
+StereoCalibration CoarseRig() {
   const CameraModel camera = CameraModel::Pinhole(376, 240, 333.0);
   return {camera, camera, Pose::Translation({-0.35, 0.0, 0.0})};
 }
@@ -87,7 +87,7 @@ std::vector<ExactFrame> SetBackFramesSeenFrom(const View& view) {
 }
 
 std::vector<double> NormalisedSquaresOfSetBackFrames() {
-  const StereoCalibration rig = SmallRig();
+  const StereoCalibration rig = CoarseRig();
   const EdgeStereoDetector detector(rig, {});
   std::vector<double> squares;
   for (const double distance_m : {2.0, 3.5}) {
@@ -96,7 +96,7 @@ std::vector<double> NormalisedSquaresOfSetBackFrames() {
            SetBackFramesSeenFrom({.distance_m = distance_m, .azimuth_deg = azimuth_deg})) {
         StageLog log(SteadyClock());
         const Detection detection =
-            detector.Detect(ExactPair(rig, frame, kNoise_dn, RandomStream(5)), log);
+            detector.Detect(ExactPair(rig, frame, kDepthNoise_dn, RandomStream(5)), log);
         const auto* estimate = std::get_if<WindowEstimate>(&detection);
         if (estimate != nullptr) squares.push_back(NormalisedSquare(*estimate, frame));
       }

@@ -19,15 +19,15 @@ using testing::View;
 using testing::WindowSeenFrom;
 using testing::WithNoise;
 
-constexpr double kBaseline_m = 0.35;
-constexpr double kNoise_dn = 2.0;
+constexpr double kMirrorBaseline_m = 0.35;
+constexpr double kMirrorNoise_dn = 2.0;
 
-Detection Detect(const StereoCalibration& rig, const StereoObservation& observation) {
+Detection DetectBeside(const StereoCalibration& rig, const StereoObservation& observation) {
   StageLog log(SteadyClock());
   return EdgeStereoDetector(rig, {}).Detect(observation, log);
 }
 
-WindowEstimate Found(const Detection& detection) {
+WindowEstimate EstimateIn(const Detection& detection) {
   const auto* estimate = std::get_if<WindowEstimate>(&detection);
   EXPECT_NE(estimate, nullptr) << std::get<Miss>(detection).detail;
   return estimate == nullptr ? WindowEstimate{} : *estimate;
@@ -42,7 +42,7 @@ StereoObservation Mirrored(const StereoObservation& seen) {
 
 // Mirrored, x becomes B - x: the mirrored right camera is the left one.
 double LargestDifference(const WindowEstimate& one, const WindowEstimate& mirrored) {
-  return testing::DistanceFromMirrored(one, kBaseline_m, mirrored);
+  return testing::DistanceFromMirrored(one, kMirrorBaseline_m, mirrored);
 }
 
 // The same pixels and the same steps, so what differs is the order in which sums are rounded. That
@@ -59,9 +59,9 @@ TEST_P(EdgeStereoMirror, MirroredImagesMirrorTheEstimateExactly) {
   const cv::Mat1f left = ExactPicture(rig.left, Pose(), frame);
   const cv::Mat1f right = ExactPicture(rig.right, rig.X_RL, frame);
   for (uint64_t seed = 1; seed <= 4; ++seed) {
-    const StereoObservation seen = WithNoise(left, right, kNoise_dn, RandomStream(seed));
-    const WindowEstimate one = Found(Detect(rig, seen));
-    const WindowEstimate other = Found(Detect(rig, Mirrored(seen)));
+    const StereoObservation seen = WithNoise(left, right, kMirrorNoise_dn, RandomStream(seed));
+    const WindowEstimate one = EstimateIn(DetectBeside(rig, seen));
+    const WindowEstimate other = EstimateIn(DetectBeside(rig, Mirrored(seen)));
     EXPECT_LT(LargestDifference(one, other), kRounding_m) << seed;
     EXPECT_NEAR(other.covariance_C->trace() / one.covariance_C->trace(), 1.0, 1e-6);
     // The twin with a fault: one grey value in one pixel of the frame's edge.
@@ -70,7 +70,8 @@ TEST_P(EdgeStereoMirror, MirroredImagesMirrorTheEstimateExactly) {
     uint8_t& pixel = touched.left(static_cast<int>(std::lround(corner->y())),
                                   static_cast<int>(std::lround(corner->x())));
     pixel = static_cast<uint8_t>(pixel + (pixel < 128 ? 8 : -8));
-    EXPECT_GT(LargestDifference(Found(Detect(rig, touched)), other), kRounding_m) << seed;
+    EXPECT_GT(LargestDifference(EstimateIn(DetectBeside(rig, touched)), other), kRounding_m)
+        << seed;
   }
 }
 
@@ -99,9 +100,10 @@ TEST(EdgeStereoMirrorOfSetBackFrames, MirrorsTheEstimateNearlyAlwaysExactly) {
           .X_LO = WindowSeenFrom(view), .opening_dn = 25.0, .setback_m = setback_m};
       const StereoObservation seen =
           WithNoise(ExactPicture(rig.left, Pose(), frame), ExactPicture(rig.right, rig.X_RL, frame),
-                    kNoise_dn, RandomStream(3));
-      const WindowEstimate one = Found(Detect(rig, seen));
-      const double difference_m = LargestDifference(one, Found(Detect(rig, Mirrored(seen))));
+                    kMirrorNoise_dn, RandomStream(3));
+      const WindowEstimate one = EstimateIn(DetectBeside(rig, seen));
+      const double difference_m =
+          LargestDifference(one, EstimateIn(DetectBeside(rig, Mirrored(seen))));
       EXPECT_LT(difference_m, 0.1 * std::sqrt(one.covariance_C->trace()))
           << view.distance_m << " m, " << setback_m << " m back";
       if (difference_m < kRounding_m) ++exact;

@@ -149,7 +149,7 @@ struct Trials {
 
 // The picture in one of the lights that the detector allows for: slopes of the wall's grey values
 // are what vignetting makes of them give or take 0.02 % a pixel
-// (vision/frame/measurement/edge_tuning.cpp).
+// (vision/frame/measurement/edge_nuisance.cpp).
 cv::Mat1f InSomeLight(const cv::Mat1f& picture, const CameraView& view, const ExactFrame& frame,
                       const RandomStream& stream) {
   std::array<double, 4> slopes_per_px;

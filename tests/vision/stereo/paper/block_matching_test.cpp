@@ -4,7 +4,6 @@
 
 #include "core/random/random_stream.h"
 #include "tests/vision/stereo/stereo_scene.h"
-#include "vision/stereo/paper/guided_matching.h"
 
 namespace fenestra {
 namespace {
