@@ -1,4 +1,4 @@
-#include "experiments/statistics/sign_flip.h"
+#include "experiments/statistics/paired.h"
 
 #include <gtest/gtest.h>
 
