@@ -1,3 +1,5 @@
+#include "scenes/gltf/writer/gltf_writer.h"
+
 #include <fmt/format.h>
 
 #include <limits>
@@ -5,7 +7,6 @@
 
 #include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
-#include "scenes/gltf/gltf.h"
 #include "scenes/gltf/writer/buffer_builder.h"
 #include "scenes/gltf/writer/material_writer.h"
 #include "scenes/gltf/writer/node_writer.h"
