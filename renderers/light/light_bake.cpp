@@ -21,7 +21,7 @@ constexpr uint32_t kOpen = ~0u;
 
 // The end of a ray.
 struct Ending {
-  uint32_t side = kOpen;  // Of the surface that was hit.
+  uint32_t side = kOpen;  // The side of the surface that was hit.
   float transmittance = 0.0f;
   vec3 direction_W{0.0f};
 
