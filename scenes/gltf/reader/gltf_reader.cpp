@@ -1,10 +1,11 @@
+#include "scenes/gltf/reader/gltf_reader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/io/faults.h"
 #include "scenes/gltf/file/document.h"
-#include "scenes/gltf/gltf.h"
 #include "scenes/gltf/reader/asset.h"
 #include "scenes/gltf/reader/cameras_and_lights.h"
 #include "scenes/gltf/reader/images.h"

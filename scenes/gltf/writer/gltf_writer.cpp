@@ -1,3 +1,5 @@
+#include "scenes/gltf/writer/gltf_writer.h"
+
 #include <fmt/format.h>
 
 #include <limits>
@@ -5,7 +7,6 @@
 
 #include "core/io/input_error.h"
 #include "core/io/temporary_files.h"
-#include "scenes/gltf/gltf.h"
 #include "scenes/gltf/writer/material_writer.h"
 #include "scenes/gltf/writer/node_writer.h"
 

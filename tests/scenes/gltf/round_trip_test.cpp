@@ -6,6 +6,8 @@
 #include "core/io/input_error.h"
 #include "scenes/facade/facade.h"
 #include "scenes/gltf/gltf.h"
+#include "scenes/gltf/reader/gltf_reader.h"
+#include "scenes/gltf/writer/gltf_writer.h"
 #include "scenes/targets/flat_targets.h"
 #include "tests/support/temporary_folder.h"
 

@@ -7,7 +7,7 @@
 namespace fenestra {
 namespace {
 
-TEST(FrontBelief, OneExactSightOfTheFrontTellsIt) {
+TEST(FrameSetback, OneExactSightOfTheFrontTellsIt) {
   const SetbackPosterior posterior = InferSetback({{0.08, 0.001, false}}, 0.5);
   // Densities over 40 cm of sights and 20 cm of setbacks: of something else 0.05/0.4 whatever the
   // setback is, of the front 0.95/0.2 in all.
@@ -18,7 +18,7 @@ TEST(FrontBelief, OneExactSightOfTheFrontTellsIt) {
   EXPECT_NEAR(posterior.setback.mean_m, (front * 0.08 + other * 0.1) / sum, 1e-4);
 }
 
-TEST(FrontBelief, WithoutSightsItIsWhatItWasBefore) {
+TEST(FrameSetback, WithoutSightsItIsWhatItWasBefore) {
   const SetbackPosterior posterior = InferSetback({}, 0.3);
   EXPECT_NEAR(posterior.flush, 0.3, 1e-12);
   // Evenly from 0 to 20 cm with the rest: means of s and s².
@@ -26,7 +26,7 @@ TEST(FrontBelief, WithoutSightsItIsWhatItWasBefore) {
   EXPECT_NEAR(posterior.root_mean_square_m, std::sqrt(0.7 * 0.04 / 3.0), 1e-5);
 }
 
-TEST(FrontBelief, AnEdgeOfTheThicknessIsBehindTheFront) {
+TEST(FrameSetback, AnEdgeOfTheThicknessIsBehindTheFront) {
   const SetbackPosterior front = InferSetback({{0.10, 0.002, false}}, 0.0);
   const SetbackPosterior thickness = InferSetback({{0.10, 0.002, true}}, 0.0);
   // In the mean half of 12 cm; what is of something else shares in both.
@@ -37,7 +37,7 @@ TEST(FrontBelief, AnEdgeOfTheThicknessIsBehindTheFront) {
   EXPECT_GT(twice.setback.sigma_m, 1.02 * thickness.setback.sigma_m / std::sqrt(2.0));
 }
 
-TEST(FrontBelief, EdgesInThePlaneAreAFlushFrames) {
+TEST(FrameSetback, EdgesInThePlaneAreAFlushFrames) {
   const std::vector<DepthMeasurement> in_plane = {{0.001, 0.003, false}, {-0.002, 0.003, false}};
   EXPECT_GT(InferSetback(in_plane, 0.5).flush, 0.95);
   // The twin: it is known not to be flush.

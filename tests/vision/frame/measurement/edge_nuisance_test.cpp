@@ -1,4 +1,4 @@
-#include "vision/frame/measurement/edge_tuning.h"
+#include "vision/frame/measurement/edge_nuisance.h"
 
 #include <gtest/gtest.h>
 

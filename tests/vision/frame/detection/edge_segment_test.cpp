@@ -1,4 +1,4 @@
-#include "vision/frame/detection/edge_chains.h"
+#include "vision/frame/detection/edge_segment.h"
 
 #include <gtest/gtest.h>
 
