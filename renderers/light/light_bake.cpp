@@ -6,9 +6,8 @@
 #include <map>
 #include <numbers>
 
-#include "renderers/light/hemisphere.h"
+#include "renderers/light/bake_rays.h"
 #include "renderers/light/lane_kernels.h"
-#include "renderers/light/surface_corners.h"
 
 namespace fenestra {
 namespace {
