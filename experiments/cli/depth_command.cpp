@@ -5,7 +5,8 @@
 #include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
 #include "experiments/cli/commands.h"
-#include "experiments/depth_curves/depth_curves.h"
+#include "experiments/depth_curves/depth_curves_report.h"
+#include "experiments/depth_curves/depth_curves_picture.h"
 
 namespace fenestra::cli {
 
