@@ -19,7 +19,15 @@ struct CalibratedRig {
   std::optional<PairMatrix> covariance;
 };
 
-/// Calibrates a rig that was just built. A pure function of all but the cache, which only saves
+/// Calibrates a rig that was just built, as the choice's source says:
+///
+///     kExact      the rig's own cameras
+///     kPerturbed  the rig's own cameras, the right one turned and shifted at random
+///     kBoards     bundle adjustment of simulated pictures of a board (CalibrateWithBoards)
+///     kStale      as kBoards, after which the right camera of the rig that flies is displaced
+///     kDesign     the cameras of the rig's design
+///
+/// A pure function of all but the cache, which only saves
 /// time. Throws InputError if a calibration with boards fails.
 CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
                          const RandomStream& calibration, const CalibrationCache& cache);
