@@ -78,10 +78,10 @@ std::string Processor() {
       break;
     }
   }
-  return name + ", " + InstructionSet();
+  return name + ", " + WidestInstructionSet();
 }
 
-std::string InstructionSet() {
+std::string WidestInstructionSet() {
   return __builtin_cpu_supports("avx512f") ? "AVX-512"
          : __builtin_cpu_supports("avx2")  ? "AVX2"
                                            : "SSE";

@@ -12,7 +12,7 @@ std::string Processor();
 
 /// The widest vector instructions of this processor, which the renderer uses: "AVX-512", "AVX2" or
 /// "SSE". Rows have the same bits only where this is the same.
-std::string InstructionSet();
+std::string WidestInstructionSet();
 
 /// The name of this machine.
 std::string HostName();

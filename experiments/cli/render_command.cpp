@@ -14,6 +14,7 @@
 #include "experiments/trial/cell_runner.h"
 #include "experiments/trial_files/scene_views.h"
 #include "experiments/trial_files/trial_files.h"
+#include "scenes/gltf/reader/gltf_reader.h"
 #include "vision/detector_registry.h"
 
 namespace fenestra::cli {

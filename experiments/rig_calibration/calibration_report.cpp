@@ -9,8 +9,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/geometry/calibration.h"
-#include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
+#include "core/io/temporary_files.h"
 #include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/plot.h"

@@ -72,7 +72,7 @@ RunIdentity IdentityOf(const Study& study) {
           .version = Version(),
           .build = BuildId(),
           .libraries = LibraryVersions(),
-          .instruction_set = InstructionSet(),
+          .instruction_set = WidestInstructionSet(),
           .plugins = Plugins()};
 }
 

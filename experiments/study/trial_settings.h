@@ -7,10 +7,10 @@
 #include "scenes/facade/facade.h"
 #include "scenes/lighting.h"
 #include "scenes/scene.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"
-#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 

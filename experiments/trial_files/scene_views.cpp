@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "core/io/atomic_file.h"
 #include "core/io/faults.h"
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "core/io/srgb.h"
+#include "core/io/temporary_files.h"
 #include "experiments/trial_files/truth_files.h"
 #include "renderers/ray_caster.h"
 #include "scenes/mesh/tessellation.h"

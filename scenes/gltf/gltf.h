@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,16 +44,5 @@ struct GltfReadOptions {
   size_t max_triangles = 20'000'000;            ///< After all instances are placed.
   size_t max_image_pixels = size_t{256} << 20;  ///< For all decoded images together.
 };
-
-/// Reads .gltf or .glb (told apart by their content). Throws InputError, which names the file and
-/// the place in it as a JSON pointer, for a file that breaks the rules of glTF 2.0, that requires
-/// an extension which is not supported, or that exceeds the limits.
-GltfScene ReadGltf(const std::filesystem::path& file, const GltfReadOptions& options = {});
-
-/// Writes one self-contained file, JSON with embedded data for ".gltf" or binary for ".glb", that
-/// appears by rename. Reading it gives the same meshes, materials, textures, windows, lamps and
-/// cameras, bit for bit; the sun's angles to rounding. Meshes without triangles are left out, and
-/// notes are not written. Throws InputError for another extension or where it cannot be written.
-void WriteGltf(const std::filesystem::path& file, const GltfScene& scene);
 
 }  // namespace fenestra

@@ -1,5 +1,5 @@
 #include "core/io/input_error.h"
-#include "scenes/gltf/gltf.h"
+#include "scenes/gltf/reader/gltf_reader.h"
 #include "tests/fuzz/input_file.h"
 
 // A libFuzzer target: any bytes at all are a scene or an InputError, and nothing else.

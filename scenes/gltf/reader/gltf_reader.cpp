@@ -1,14 +1,14 @@
+#include "scenes/gltf/reader/gltf_reader.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "core/io/faults.h"
 #include "scenes/gltf/file/document.h"
-#include "scenes/gltf/gltf.h"
 #include "scenes/gltf/reader/asset.h"
-#include "scenes/gltf/reader/cameras.h"
+#include "scenes/gltf/reader/cameras_and_lights.h"
 #include "scenes/gltf/reader/images.h"
-#include "scenes/gltf/reader/lights.h"
 #include "scenes/gltf/reader/materials.h"
 #include "scenes/gltf/reader/meshes.h"
 #include "scenes/gltf/reader/placement.h"

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/io/input_error.h"
+#include "scenes/gltf/reader/gltf_reader.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra::testing {

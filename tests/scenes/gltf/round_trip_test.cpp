@@ -6,7 +6,9 @@
 #include "core/io/input_error.h"
 #include "scenes/facade/facade.h"
 #include "scenes/gltf/gltf.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/gltf/reader/gltf_reader.h"
+#include "scenes/gltf/writer/gltf_writer.h"
+#include "scenes/targets/flat_targets.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/gltf/gltf.h"
+#include "scenes/gltf/reader/gltf_reader.h"
 #include "tests/scenes/gltf/gltf_text.h"
 
 // What the Khronos sample models are, by their descriptions, against what is read of them.
