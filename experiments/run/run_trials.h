@@ -18,6 +18,7 @@ std::vector<TrialKey> AllTrials(std::span<const Cell> cells);
 /// time.
 using RunnerMaker = std::function<std::shared_ptr<const TrialRunner>(const Study&, const Cell&)>;
 
+/// How trials are run; none of it changes what they give.
 struct RunOptions {
   int jobs = 1;  ///< Trials that run at the same time, at least 1.
   /// Whether detectors shall keep their pictures and clouds in this trial.

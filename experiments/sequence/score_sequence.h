@@ -33,7 +33,8 @@ struct SequenceRun {
   std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
 };
 
-/// Throws InputError for a file that cannot be read; nothing is written then.
+/// Scores every image under every detector; the rows have the cells and trials that the sequence
+/// gives. Throws InputError for a file that cannot be read; nothing is written then.
 std::vector<CellSummary> ScoreSequence(const SequenceRun& run);
 
 }  // namespace fenestra
