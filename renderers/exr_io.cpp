@@ -13,8 +13,8 @@
 #include <cstring>
 #include <set>
 
-#include "core/io/atomic_file.h"
 #include "core/io/faults.h"
+#include "core/io/temporary_files.h"
 
 namespace fenestra {
 namespace {

@@ -12,6 +12,9 @@
 
 namespace fenestra {
 
+/// Throws InputError, with all faults, unless the sample counts are allowed ones.
+void Validate(const RenderOptions& options);
+
 struct RayCasterOptions {
   /// Number of diffuse reflections that light undergoes before it reaches what is seen. The light
   /// that is left out is at most ρ^(bounces + 1) of all light in a closed room of reflectance ρ.

@@ -9,6 +9,7 @@
 
 namespace fenestra {
 
+/// Hues of paints, of which HueRgb has the colours.
 enum class Hue { kNeutral, kBrickRed, kOchre, kBrown, kGreen, kBlue };
 
 /// The names of the hues, in order: neutral, brick_red, ...
@@ -18,7 +19,7 @@ const std::vector<std::string>& HueNames();
 struct Paint {
   double reflectance = 0.5;        ///< Rec. 709 luminance of the reflectance.
   double reflectance_830nm = 0.5;  ///< At the structured-light projector's wavelength.
-  Hue hue = Hue::kNeutral;
+  Hue hue = Hue::kNeutral;         ///< Of the visible reflectance.
 };
 
 /// Linear red, green and blue of a hue, scaled to a luminance of 1.
@@ -28,8 +29,8 @@ glm::dvec3 HueRgb(Hue hue);
 /// light than it receives.
 double MostReflectance(Hue hue);
 
-/// Refuses reflectances beyond [0, 1] or beyond what the hue can have. `name` and "_reflectance"
-/// make the name of the paint's reflectance.
+/// Adds a fault for reflectances beyond [0, 1] or beyond what the hue can have. `name` and
+/// "_reflectance" make the name of the paint's reflectance.
 void CheckPaint(const std::string& name, const Paint& paint, Faults& faults);
 
 /// A material whose reflectance has the paint's luminance and hue.

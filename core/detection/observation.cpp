@@ -1,7 +1,7 @@
 #include "core/detection/observation.h"
 
-#include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
+#include "core/io/temporary_files.h"
 
 namespace fenestra {
 

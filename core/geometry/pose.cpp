@@ -32,7 +32,9 @@ Eigen::Matrix3d RotationFromVector(const Eigen::Vector3d& rotation_vector) {
 
 Eigen::Matrix3d CrossMatrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d matrix;
-  matrix << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
+  matrix << 0.0, -v.z(), v.y(),  //
+      v.z(), 0.0, -v.x(),        //
+      -v.y(), v.x(), 0.0;
   return matrix;
 }
 

@@ -8,8 +8,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 
 namespace fenestra {
 namespace {

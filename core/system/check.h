@@ -1,12 +1,16 @@
 #pragma once
 
+#include <stdexcept>
 #include <string>
 
 namespace fenestra {
 
 /// Throws std::logic_error("file:line: check failed: condition (detail)").
-[[noreturn]] void FailCheck(const char* file, int line, const char* condition,
-                            const std::string& detail);
+[[noreturn]] inline void FailCheck(const char* file, int line, const char* condition,
+                                   const std::string& detail) {
+  throw std::logic_error(std::string(file) + ":" + std::to_string(line) +
+                         ": check failed: " + condition + " (" + detail + ")");
+}
 
 }  // namespace fenestra
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "experiments/check/check_report.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
+#include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
 #include "experiments/depth_curves/depth_curves.h"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/io/atomic_file.h"
 #include "core/io/faults.h"
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
 #include "experiments/emva/report.h"
 #include "experiments/study/factors.h"

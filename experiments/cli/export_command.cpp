@@ -8,7 +8,7 @@
 #include "experiments/sampling/trial_sampler.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"
-#include "experiments/trial/trial_scene.h"
+#include "experiments/trial_files/scene_views.h"
 #include "scenes/gltf/writer/gltf_writer.h"
 #include "vision/detector_registry.h"
 

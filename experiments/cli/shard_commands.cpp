@@ -6,8 +6,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "core/system/program.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/io/atomic_file.h"
+#include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/study_run_arguments.h"

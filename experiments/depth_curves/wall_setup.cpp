@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 
 namespace fenestra {
 namespace {

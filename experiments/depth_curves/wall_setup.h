@@ -3,8 +3,8 @@
 #include <opencv2/core.hpp>
 
 #include "core/random/random_stream.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/structured_light/structured_light_sensor.h"
-#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 

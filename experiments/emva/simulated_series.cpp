@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/io/atomic_file.h"
 #include "core/io/faults.h"
 #include "core/io/image_io.h"
+#include "core/io/temporary_files.h"
 
 namespace fenestra::emva {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
+#include "core/io/temporary_files.h"
 #include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"

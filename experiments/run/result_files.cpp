@@ -9,8 +9,8 @@
 #include <optional>
 #include <ostream>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "experiments/analysis/cell_tally.h"
 #include "experiments/report/provenance.h"
 #include "experiments/report/report.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/io/private_folder.h"
+#include "core/io/temporary_files.h"
 #include "experiments/output/number_format.h"
 #include "experiments/report/report.h"
 #include "experiments/run/result_files.h"

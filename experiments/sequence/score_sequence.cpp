@@ -5,8 +5,8 @@
 #include <fstream>
 #include <optional>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "core/system/program.h"
 #include "experiments/analysis/cell_tally.h"
 #include "experiments/report/report.h"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/detection/observation.h"
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "core/io/yaml_reader.h"
 #include "experiments/sequence/surveyed_truth.h"
 #include "experiments/trial/cell_runner.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <mutex>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "core/system/check.h"
 #include "experiments/store/store_rows.h"
 

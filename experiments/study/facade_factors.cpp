@@ -1,20 +1,17 @@
-#include "experiments/study/facade_factors.h"
-
 #include "core/geometry/pose.h"
+#include "experiments/study/factor_tables.h"
 #include "scenes/facade/facade_plan.h"
 #include "scenes/facade/wall_texture.h"
 
 namespace fenestra {
 namespace {
 
-using Table = ParameterTable<TrialSettings>;
-
-const Table::Range kUnit{0.0, 1.0};
+const FactorTable::Range kUnit{0.0, 1.0};
 
 // The field of the settings that a factor stands for.
 #define FIELD(path) FENESTRA_FIELD(path)
 
-void AddWall(Table& t) {
+void AddWall(FactorTable& t) {
   t.Number("wall_thickness_m", FIELD(facade.wall.thickness_m), {0.01, 2.0},
            "Thickness of the wall, which is the depth of the reveal.")
       .Choice("wall_hue", FIELD(facade.wall.paint.hue), HueNames(), "Hue of the wall.")
@@ -28,7 +25,7 @@ void AddWall(Table& t) {
               "Seed of all that is random about a facade; equal seeds give equal facades.");
 }
 
-void AddWindow(Table& t) {
+void AddWindow(FactorTable& t) {
   t.Number("frame_depth_m", FIELD(facade.window.frame_depth_m), {0.001, 1.0},
            "Depth of the window frame along the wall's normal.")
       .Number("frame_setback_m", FIELD(facade.window.setback_m), {0.0, 1.0},
@@ -45,7 +42,7 @@ void AddWindow(Table& t) {
               "Whether windows have two panes, 16 mm apart, instead of one.");
 }
 
-void AddOtherWindows(Table& t) {
+void AddOtherWindows(FactorTable& t) {
   t.Integer("windows_left", FIELD(facade.grid.windows_left), {0, 5},
             "Number of columns of other windows to the viewer's left of the target.")
       .Integer("windows_right", FIELD(facade.grid.windows_right), {0, 5},
@@ -68,7 +65,7 @@ void AddOtherWindows(Table& t) {
               "Hue of the other windows' frames.");
 }
 
-void AddRooms(Table& t) {
+void AddRooms(FactorTable& t) {
   t.Number("room_depth_m", FIELD(facade.room.depth_m), {0.1, 50.0},
            "Depth of the room behind each window.")
       .Number("room_reflectance", FIELD(facade.room.paint.reflectance), kUnit,
@@ -87,7 +84,7 @@ void AddRooms(Table& t) {
               "LED lamps.");
 }
 
-void AddStonework(Table& t) {
+void AddStonework(FactorTable& t) {
   t.Switch("sill", FIELD(facade.sill.present), "Whether there is a slab below each window.")
       .Number("sill_projection_m", FIELD(facade.sill.projection_m), {0.0, 0.5},
               "Projection of the sills from the wall.")
@@ -123,7 +120,7 @@ void AddStonework(Table& t) {
       .Choice("shutter_hue", FIELD(facade.shutters.paint.hue), HueNames(), "Hue of the shutters.");
 }
 
-void AddPipework(Table& t) {
+void AddPipework(FactorTable& t) {
   t.Switch("drainpipe", FIELD(facade.drainpipe.present),
            "Whether there is an upright pipe before the wall.")
       .Number("drainpipe_x_m", FIELD(facade.drainpipe.x_m), {-100.0, 100.0},
@@ -170,7 +167,7 @@ void AddPipework(Table& t) {
       .Choice("railing_hue", FIELD(facade.railing.paint.hue), HueNames(), "Hue of the railing.");
 }
 
-void AddCovers(Table& t) {
+void AddCovers(FactorTable& t) {
   t.Number("blind_coverage", FIELD(facade.blind.coverage), {0.0, 1.0},
            "Share of the target's height that its blind covers, from the top; 0: no blinds at all.")
       .Switch("blind_outside", FIELD(facade.blind.outside),
@@ -202,7 +199,7 @@ void AddCovers(Table& t) {
 
 }  // namespace
 
-void AddFacadeFactors(ParameterTable<TrialSettings>& table) {
+void AddFacadeFactors(FactorTable& table) {
   AddWall(table);
   AddWindow(table);
   AddOtherWindows(table);

@@ -27,6 +27,11 @@ Scene MakeScene(const TrialSettings& settings) {
   return MakeFacade(settings.facade);
 }
 
+Pose RigPoseOf(const TrialSettings& settings, const Scene& scene) {
+  // Without a window the rig looks at the place where it would be: the world's origin.
+  return RigPose(settings.viewpoint, scene.target ? scene.target->X_WO : Pose());
+}
+
 void Validate(const TrialSettings& settings, SensorKind sensor) {
   if (settings.scene == kFacadeScene) {
     Validate(settings.facade);  // Made in full, textured facades would take too long.

@@ -3,16 +3,40 @@
 #include <string>
 
 #include "core/detection/observation.h"
-#include "experiments/study/calibration_choice.h"
+#include "core/geometry/calibration_board.h"
 #include "scenes/facade/facade.h"
 #include "scenes/lighting.h"
 #include "scenes/scene.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"
-#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
+
+/// Where a detector's knowledge of its stereo rig comes from.
+enum class CalibrationSource {
+  kExact,      ///< The true rig.
+  kPerturbed,  ///< The true rig with a random error of the right camera's pose.
+  kBoards,     ///< Calibrated with pictures of a board: intrinsics, extrinsics, errors and all.
+               ///< These pictures have noise even if the rig's options leave it out.
+  kStale,      ///< Calibrated with boards before the right camera was displaced.
+  kDesign,     ///< The rig as designed: never calibrated.
+};
+
+struct CalibrationChoice {
+  CalibrationSource source = CalibrationSource::kPerturbed;
+  /// kPerturbed: standard deviations about and along each axis. About what 20 boards leave behind.
+  double rotation_error_rad = 1e-4;
+  double translation_error_m = 1e-4;
+  /// kBoards, kStale.
+  int boards = 20;
+  BoardKind board = BoardKind::kChessboard;
+  /// kStale: displacement of the right camera, standard deviations about and along each axis; what
+  /// a hard landing does to a bar. Assumed.
+  double shake_rotation_rad = 5e-4;
+  double shake_translation_m = 1e-4;
+};
 
 inline constexpr const char* kPaperTargetScene = "paper_target";
 inline constexpr const char* kFacadeScene = "facade";
@@ -39,6 +63,9 @@ PaperTargetOptions PaperTargetOf(const TrialSettings& settings);
 
 /// The scene of a trial. Throws InputError for sizes that do not fit into each other.
 Scene MakeScene(const TrialSettings& settings);
+
+/// Where the rig's frame B stands.
+Pose RigPoseOf(const TrialSettings& settings, const Scene& scene);
 
 /// Throws InputError for settings that contradict each other, in the scene or in the sensor.
 void Validate(const TrialSettings& settings, SensorKind sensor);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "experiments/study/calibration_choice.h"
+#include "experiments/study/trial_settings.h"
 #include "sim/stereo/board_session.h"
 #include "vision/calibration/stereo_calibration.h"
 

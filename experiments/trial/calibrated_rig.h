@@ -4,7 +4,7 @@
 
 #include "core/geometry/calibration.h"
 #include "core/random/random_stream.h"
-#include "experiments/study/calibration_choice.h"
+#include "experiments/study/trial_settings.h"
 #include "experiments/trial/calibration_cache.h"
 #include "sim/stereo/stereo_rig.h"
 #include "vision/calibration/bundle_adjustment.h"

@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "core/geometry/calibration.h"
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
+#include "core/io/temporary_files.h"
 #include "core/system/check.h"
 #include "core/system/program.h"
 

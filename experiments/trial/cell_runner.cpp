@@ -2,7 +2,6 @@
 
 #include "experiments/trial/calibrated_rig.h"
 #include "experiments/trial/scoring.h"
-#include "experiments/trial/trial_scene.h"
 
 namespace fenestra {
 namespace {

@@ -8,7 +8,7 @@
 #include "experiments/sampling/trial_sampler.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/trial_record.h"
-#include "sim/structured_light/missing_return.h"
+#include "sim/structured_light/explained_depth.h"
 #include "sim/truth/ground_truth.h"
 
 namespace fenestra {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <set>
 
-#include "core/io/atomic_file.h"
 #include "core/io/faults.h"
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "core/io/srgb.h"
+#include "core/io/temporary_files.h"
 #include "experiments/trial_files/truth_files.h"
 #include "renderers/ray_caster.h"
 #include "scenes/mesh/tessellation.h"
@@ -127,6 +127,22 @@ std::string FolderName(const std::string& name, std::set<std::string>& used) {
 }
 
 }  // namespace
+
+GltfScene TrialScene(const TrialSettings& settings) {
+  GltfScene world{.scene = MakeScene(settings), .cameras = {}, .sun = {}, .notes = {}};
+  const Pose X_WB = RigPoseOf(settings, world.scene);
+  const StereoCalibration stereo = DesignOf(settings.stereo);
+  const Pose X_BL = Pose::Translation({-0.5 * settings.stereo.baseline_m, 0.0, 0.0});
+  const Pose X_BR = X_BL * stereo.X_RL.inverse();
+  const StructuredLightSensor sensor(settings.rgbd);
+  const RgbdCalibration& rgbd = sensor.nominal();
+  world.cameras = {{.name = "left", .X_WC = X_WB * X_BL, .model = stereo.left},
+                   {.name = "right", .X_WC = X_WB * X_BR, .model = stereo.right},
+                   {.name = "depth", .X_WC = sensor.X_WD(X_WB), .model = rgbd.depth},
+                   {.name = "color", .X_WC = sensor.X_WK(X_WB), .model = rgbd.color}};
+  if (settings.lighting.sun.illuminance_lx > 0.0) world.sun = settings.lighting.sun;
+  return world;
+}
 
 std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOptions& options) {
   if (!options.camera) {

@@ -4,9 +4,14 @@
 #include <optional>
 #include <string>
 
+#include "experiments/study/trial_settings.h"
 #include "scenes/gltf/gltf.h"
 
 namespace fenestra {
+
+/// The world of a trial with the cameras of both sensors standing where the rig is: left, right,
+/// depth, color, as designed.
+GltfScene TrialScene(const TrialSettings& settings);
 
 struct SceneViewOptions {
   std::optional<std::string> camera = {};  ///< By name; otherwise all of the scene's cameras.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "sim/structured_light/missing_return.h"
+#include "sim/structured_light/explained_depth.h"
 
 namespace fenestra {
 namespace {

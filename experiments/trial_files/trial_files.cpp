@@ -6,8 +6,8 @@
 
 #include "core/detection/observation.h"
 #include "core/geometry/calibration.h"
-#include "core/io/atomic_file.h"
 #include "core/io/image_io.h"
+#include "core/io/temporary_files.h"
 #include "experiments/output/file_formats.h"
 #include "experiments/trial_files/trial_drawing.h"
 #include "experiments/trial_files/truth_files.h"

@@ -35,9 +35,6 @@ struct RenderOptions {
 /// left, lower right.
 using QuarterImages = std::array<cv::Mat, 4>;
 
-/// Throws InputError, with all faults, unless the sample counts are allowed ones.
-void Validate(const RenderOptions& options);
-
 /// The truths that CastAovs fills in besides depth, normal and object.
 struct AovOptions {
   /// Per-pixel offsets (du, dv) [px] from the pixel centre; empty: none. Each component in

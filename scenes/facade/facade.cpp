@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "scenes/facade/facade_check.h"
-#include "scenes/facade/facade_glazing.h"
 #include "scenes/facade/facade_parts.h"
 #include "scenes/facade/facade_plan.h"
 #include "scenes/facade/facade_plant.h"

@@ -8,6 +8,9 @@
 
 namespace fenestra {
 
+// What stands in and before the openings of a facade, without its plants. Each mesh gets the
+// material with the index `material`.
+
 /// Distance from an opening's side to the outer edge of the shutter that stands open beside it.
 double ShutterReach_m(double window_width_m);
 
@@ -30,5 +33,9 @@ Mesh MakeCables(const FacadeOptions& options, const RandomStream& random, uint32
 
 /// Upright bars between a lower and a hand rail before the window, a little wider than it.
 Mesh MakeRailing(const FacadeOptions& options, const WindowPlan& window, uint32_t material);
+
+/// Panes of glass in the frame's depth: one in its middle, or two 16 mm apart. They end in the
+/// frame, so that no light passes at their edges.
+void AddPanes(const WindowOptions& options, const WindowPlan& window, Mesh& mesh);
 
 }  // namespace fenestra

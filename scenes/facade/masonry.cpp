@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/facade/facade_parts.h"
-#include "scenes/mesh/longest_edge_bisection.h"
+#include "scenes/mesh/tessellation.h"
 
 namespace fenestra {
 namespace {

@@ -9,10 +9,12 @@
 
 namespace fenestra {
 
-/// Root mean square contrast: the standard deviation of a texture's reflectance over its mean. No
-/// texel departs from the mean by more than kMostDeviation standard deviations, so that
-/// reflectances stay between 0 and 1.
+/// Largest root mean square contrast: the standard deviation of a texture's reflectance over its
+/// mean.
 inline constexpr double kMostTextureContrast = 0.4;
+
+/// Largest deviation of a texel from the mean, in standard deviations, so that reflectances stay
+/// between 0 and 1.
 inline constexpr double kMostDeviation = 2.5;
 
 /// The reason why this wall cannot have its texture, or an empty text. At too high a contrast the

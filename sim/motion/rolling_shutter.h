@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/geometry/camera_model.h"
-#include "sim/motion/rig_motion.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 

@@ -8,7 +8,7 @@
 
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
-#include "scenes/targets/board_scene.h"
+#include "scenes/targets/flat_targets.h"
 
 namespace fenestra {
 namespace {

@@ -9,7 +9,7 @@
 #include "sim/camera/image_sensor.h"
 #include "sim/camera/lens.h"
 #include "sim/camera/spectral_response.h"
-#include "sim/motion/rig_motion.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/truth/ground_truth.h"
 
 namespace fenestra {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "sim/structured_light/missing_return.h"
+#include "sim/structured_light/explained_depth.h"
 
 namespace fenestra {
 namespace {

@@ -2,9 +2,9 @@
 
 #include "core/geometry/camera_model.h"
 #include "sim/structured_light/disparity.h"
+#include "sim/structured_light/explained_depth.h"
 #include "sim/structured_light/infrared_image.h"
 #include "sim/structured_light/infrared_view.h"
-#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {

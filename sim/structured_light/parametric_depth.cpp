@@ -8,7 +8,7 @@
 
 #include "core/io/input_error.h"
 #include "sim/structured_light/block_evidence.h"
-#include "sim/structured_light/missing_return.h"
+#include "sim/structured_light/explained_depth.h"
 
 namespace fenestra {
 namespace {

@@ -8,8 +8,8 @@
 #include "sim/motion/moving_rays.h"
 #include "sim/structured_light/block_evidence.h"
 #include "sim/structured_light/disparity.h"
+#include "sim/structured_light/explained_depth.h"
 #include "sim/structured_light/infrared_image.h"
-#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {

@@ -9,10 +9,9 @@
 #include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
 #include "sim/camera/color_camera.h"
-#include "sim/structured_light/depth_registrar.h"
+#include "sim/structured_light/explained_depth.h"
 #include "sim/structured_light/infrared_image.h"
 #include "sim/structured_light/matched_depth.h"
-#include "sim/structured_light/missing_return.h"
 #include "sim/structured_light/parametric_depth.h"
 #include "sim/truth/ground_truth.h"
 

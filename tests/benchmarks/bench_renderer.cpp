@@ -14,7 +14,7 @@
 #include "renderers/tracing/traced_scene.h"
 #include "scenes/facade/facade.h"
 #include "scenes/mesh/tessellation.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 
 namespace fenestra {
 namespace {

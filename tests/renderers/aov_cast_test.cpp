@@ -7,7 +7,7 @@
 #include "renderers/ray_caster.h"
 #include "renderers/tracing/pane_kernels.h"
 #include "scenes/facade/facade.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {

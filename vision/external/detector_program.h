@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/geometry/calibration.h"
-#include "core/io/private_folder.h"
+#include "core/io/temporary_files.h"
 #include "vision/external/child_process.h"
 #include "vision/external/detector_protocol.h"
 #include "vision/external/external_command.h"

@@ -82,29 +82,29 @@ double SigmaAlongNormal(const FrameFit& fit) {
 
 }  // namespace
 
-int FrameFitter::Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
-                         std::vector<EdgePoint>& points) {
+SideEdges FrameFitter::Measure(size_t view, const FrameRectangle& frame,
+                               const SideRequest& request) {
   EdgeNuisance& nuisance =
       nuisances_[view][static_cast<size_t>(request.border)][static_cast<size_t>(request.side)];
   SideEdges edges = MeasureSide(views_[view], frame, request, nuisance);
-  points.insert(points.end(), edges.points.begin(), edges.points.end());
   nuisance = edges.nuisance;
-  return edges.places;
+  return edges;
 }
 
-std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame, const FramePrior& prior,
-                                           double tolerance_px, bool is_last) {
-  FrameFit fit;
-  fit.points.resize(views_.size());
-  PlaceCounts places;
-  places.outer.resize(views_.size());
-  places.inner.resize(views_.size());
-  for (size_t view = 0; view < views_.size(); ++view) {
-    const double reach_px = border_ ? std::clamp(0.5 * BorderPixels(views_[view], frame),
-                                                 kLeastReach_px, settings_.reach_px)
-                                    : settings_.reach_px;
+FrameFitter::ViewEdges FrameFitter::MeasureView(size_t view, const FrameRectangle& frame,
+                                                double tolerance_px, bool is_last) {
+  const double reach_px = border_ ? std::clamp(0.5 * BorderPixels(views_[view], frame),
+                                               kLeastReach_px, settings_.reach_px)
+                                  : settings_.reach_px;
+  ViewEdges found;
+  const auto add = [&](const SideRequest& request, SideCounts& places) {
+    const SideEdges edges = Measure(view, frame, request);
+    found.points.insert(found.points.end(), edges.points.begin(), edges.points.end());
+    places[static_cast<size_t>(request.side)] = edges.places;
+  };
+  for (const Side side : kAllSides) {
     SideRequest request{
-        .side = Side::kTop,
+        .side = side,
         .border = Border::kOuter,
         .brighter = Brighter::kOutside,
         .reach_px = reach_px,
@@ -112,22 +112,26 @@ std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame, const Fr
         .min_contrast_dn = settings_.min_contrast_dn,
         .vignetting = settings_.vignetting,
         .coarse = !is_last && tolerance_px >= kCoarse_px};
-    for (const Side side : kAllSides) {
-      const auto s = static_cast<size_t>(side);
-      request.side = side;
-      request.border = Border::kOuter;
-      request.brighter = Brighter::kOutside;
-      places.outer[view][s] = Measure(view, frame, request, fit.points[view]);
-      if (!border_) continue;
-      request.border = Border::kInner;
-      request.brighter = border_->brighter[s];
-      SideRequest inner = request;
-      inner.min_contrast_dn = settings_.border.min_contrast_dn;
-      places.inner[view][s] = Measure(view, frame, inner, fit.points[view]);
-    }
+    add(request, found.outer_places);
+    if (!border_) continue;
+    request.border = Border::kInner;
+    request.brighter = border_->brighter[static_cast<size_t>(side)];
+    request.min_contrast_dn = settings_.border.min_contrast_dn;
+    add(request, found.inner_places);
   }
-  for (std::vector<EdgePoint>& points : fit.points) {
-    for (EdgePoint& point : points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
+  for (EdgePoint& point : found.points) point.sigma_px = std::hypot(point.sigma_px, tolerance_px);
+  return found;
+}
+
+std::optional<FrameFit> FrameFitter::Round(const FrameRectangle& frame, const FramePrior& prior,
+                                           double tolerance_px, bool is_last) {
+  FrameFit fit;
+  PlaceCounts places;
+  for (size_t view = 0; view < views_.size(); ++view) {
+    ViewEdges found = MeasureView(view, frame, tolerance_px, is_last);
+    fit.points.push_back(std::move(found.points));
+    places.outer.push_back(found.outer_places);
+    places.inner.push_back(found.inner_places);
   }
   FramePrior all = prior;
   all.planes = settings_.planes;

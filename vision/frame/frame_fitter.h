@@ -57,6 +57,12 @@ class FrameFitter {
   std::variant<FrameFit, Miss> Finish(const FrameFit& rough);
 
  private:
+  /// The edge points of all sides in one view, and the numbers of places at which they were sought.
+  struct ViewEdges {
+    std::vector<EdgePoint> points;
+    SideCounts outer_places = {};
+    SideCounts inner_places = {};
+  };
   std::optional<FrameFit> Round(const FrameRectangle& frame, const FramePrior& prior,
                                 double tolerance_px, bool is_last);
   std::optional<FrameFit> FitInOnePlane(const FrameFit& start);
@@ -64,8 +70,9 @@ class FrameFitter {
   std::optional<FrameFit> FitInRelief(const FrameFit& start);
   std::optional<FrameFit> Rounds(FrameFit fit, const FramePrior& prior,
                                  std::span<const double> tolerances_px);
-  int Measure(size_t view, const FrameRectangle& frame, const SideRequest& request,
-              std::vector<EdgePoint>& points);
+  ViewEdges MeasureView(size_t view, const FrameRectangle& frame, double tolerance_px,
+                        bool is_last);
+  SideEdges Measure(size_t view, const FrameRectangle& frame, const SideRequest& request);
 
   std::span<const CameraView> views_;
   FrameFitSettings settings_;

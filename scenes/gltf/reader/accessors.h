@@ -19,6 +19,7 @@ namespace fenestra::gltf {
 /// data.
 std::vector<float> ReadFloats(const Asset& asset, int accessor);
 
+/// The elements of an accessor of vectors.
 std::vector<glm::vec2> ReadVec2(const Asset& asset, int accessor);
 std::vector<glm::vec3> ReadVec3(const Asset& asset, int accessor);
 /// A VEC3 gets w = 1, as a colour without alpha.

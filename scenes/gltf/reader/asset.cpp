@@ -10,7 +10,6 @@
 #include "scenes/gltf/file/bytes.h"
 #include "scenes/gltf/file/document.h"
 #include "scenes/gltf/validation/extensions.h"
-#include "scenes/gltf/validation/schema_check.h"
 #include "scenes/gltf/validation/structure_check.h"
 
 namespace fenestra::gltf {

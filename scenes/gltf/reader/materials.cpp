@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "scenes/gltf/file/values.h"
 #include "scenes/gltf/reader/textures.h"
+#include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {
 namespace {

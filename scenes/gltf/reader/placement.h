@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scenes/gltf/reader/asset.h"
+#include "scenes/gltf/reader/surfaces.h"
 
 namespace fenestra::gltf {
 
@@ -33,5 +34,16 @@ std::optional<ScaledPose> RigidPart(const Eigen::Matrix4d& M_WN);
 /// M_NI of each instance I of a node's mesh (see InstanceAttributes); the identity without the
 /// extension. Throws InputError for a rotation that is none.
 std::vector<Eigen::Matrix4d> InstanceTransforms(const Asset& asset, const tinygltf::Node& node);
+
+/// Transform of each vertex of a skinned surface, by section 3.7.3.3 of the specification:
+///
+///     M_WV = Σ_k w_k M_WJk B_k,   Σ_k w_k = 1
+///
+/// of joints J and their inverse bind matrices B; the skinned node's own pose does not count. The
+/// joints are in the file's rest pose. Throws InputError for a joint that does not exist and
+/// for bind matrices that are not affine. `by_node` has an entry for each node of the document,
+/// nullptr for one that is not in the scene.
+std::vector<Eigen::Matrix4d> SkinTransforms(const Asset& asset, size_t skin, const Surface& surface,
+                                            const std::vector<const PlacedNode*>& by_node);
 
 }  // namespace fenestra::gltf

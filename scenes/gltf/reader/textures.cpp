@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/io/srgb.h"
-#include "scenes/gltf/file/values.h"
+#include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {
 namespace {

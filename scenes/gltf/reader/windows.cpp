@@ -6,7 +6,7 @@
 
 #include "core/io/faults.h"
 #include "scenes/gltf/file/document.h"
-#include "scenes/gltf/file/values.h"
+#include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {
 namespace {

@@ -8,7 +8,7 @@
 #include <regex>
 
 #include "scenes/gltf/file/document.h"
-#include "scenes/gltf/file/values.h"
+#include "scenes/gltf/tinygltf.h"
 
 namespace fenestra::gltf {
 namespace {

@@ -25,6 +25,10 @@ struct ElementLayout {
 
 ElementLayout LayoutOf(int component_type, int type);
 
+/// Holds the whole document against the schema: types, ranges, required members, references into
+/// arrays, and extensions that are misplaced or not declared.
+void CheckSchema(const nlohmann::json& root, Faults& faults);
+
 /// Checks of rules that the schema cannot express. All of them take a model that passed
 /// CheckSchema.
 

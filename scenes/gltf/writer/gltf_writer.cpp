@@ -5,9 +5,8 @@
 #include <limits>
 #include <sstream>
 
-#include "core/io/atomic_file.h"
 #include "core/io/input_error.h"
-#include "scenes/gltf/writer/buffer_builder.h"
+#include "core/io/temporary_files.h"
 #include "scenes/gltf/writer/material_writer.h"
 #include "scenes/gltf/writer/node_writer.h"
 

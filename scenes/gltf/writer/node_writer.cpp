@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenes/gltf/reader/cameras.h"
+#include "scenes/gltf/reader/cameras_and_lights.h"
 #include "scenes/gltf/writer/material_writer.h"
 
 namespace fenestra::gltf {

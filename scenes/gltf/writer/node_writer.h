@@ -1,7 +1,7 @@
 #pragma once
 
 #include "scenes/gltf/gltf.h"
-#include "scenes/gltf/writer/buffer_builder.h"
+#include "scenes/gltf/writer/material_writer.h"
 
 namespace fenestra::gltf {
 

@@ -8,8 +8,8 @@
 
 #include "core/geometry/pose.h"
 #include "experiments/cramer_rao/trial_information.h"
-#include "scenes/targets/paper_target.h"
-#include "sim/truth/viewpoint.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {

@@ -1,5 +1,3 @@
-#include "experiments/study/facade_factors.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "experiments/study/calibration_choice.h"
+#include "experiments/study/trial_settings.h"
 #include "experiments/trial/board_calibration.h"
 #include "sim/stereo/stereo_rig.h"
 #include "tests/support/temporary_folder.h"

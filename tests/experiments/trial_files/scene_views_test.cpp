@@ -10,7 +10,7 @@
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "renderers/exr_io.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

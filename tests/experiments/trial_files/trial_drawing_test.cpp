@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "sim/structured_light/missing_return.h"
+#include "sim/structured_light/explained_depth.h"
 
 namespace fenestra {
 namespace {

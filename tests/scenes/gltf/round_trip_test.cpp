@@ -8,7 +8,7 @@
 #include "scenes/gltf/gltf.h"
 #include "scenes/gltf/reader/gltf_reader.h"
 #include "scenes/gltf/writer/gltf_writer.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

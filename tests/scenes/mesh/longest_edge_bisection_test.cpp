@@ -1,4 +1,4 @@
-#include "scenes/mesh/longest_edge_bisection.h"
+#include "scenes/mesh/tessellation.h"
 
 #include <gtest/gtest.h>
 

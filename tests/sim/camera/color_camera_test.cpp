@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "scenes/facade/facade.h"
-#include "sim/truth/viewpoint.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "sim/motion/moving_rays.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/structured_light/structured_light_sensor.h"
-#include "sim/truth/viewpoint.h"
 
 namespace fenestra {
 namespace {

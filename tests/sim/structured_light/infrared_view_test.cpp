@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/targets/paper_target.h"
-#include "sim/truth/viewpoint.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {

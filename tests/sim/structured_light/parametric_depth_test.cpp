@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "scenes/facade/facade.h"
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/structured_light/structured_light_sensor.h"
-#include "sim/truth/viewpoint.h"
 #include "tests/sim/structured_light/wall_scenes.h"
 
 namespace fenestra {

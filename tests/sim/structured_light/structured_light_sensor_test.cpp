@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "scenes/facade/facade.h"
-#include "scenes/targets/paper_target.h"
-#include "sim/truth/viewpoint.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 #include "tests/sim/structured_light/wall_scenes.h"
 
 namespace fenestra {

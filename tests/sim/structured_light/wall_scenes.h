@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 #include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra::testing {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/truth/viewpoint.h"
+#include "sim/motion/rig_pose.h"
 
 namespace fenestra {
 namespace {

@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 #include <array>
 
-#include "scenes/targets/board_scene.h"
+#include "scenes/targets/flat_targets.h"
+#include "sim/motion/rig_pose.h"
 #include "sim/stereo/stereo_rig.h"
-#include "sim/truth/viewpoint.h"
 #include "vision/calibration/board_finder.h"
 
 namespace fenestra {

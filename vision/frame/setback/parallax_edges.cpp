@@ -133,50 +133,77 @@ double SigmaOfShift(const SideProfile& a, int i, const SideProfile& b, int j) {
   return std::hypot(1.0 / std::sqrt(information), kModel_px / kStep_px);
 }
 
+// A side as both views see it.
+struct StereoProfile {
+  Side side;
+  Eye eye;
+  Eye other;
+  ProfileGrid grid;
+  SideProfile a;
+  SideProfile b;
+};
+
+std::optional<StereoProfile> ProfileOf(const CameraView& first, const CameraView& second,
+                                       const FrameRectangle& frame, Side side) {
+  const Eye eye = EyeOf(first, frame, side);
+  const Eye other = EyeOf(second, frame, side);
+  const double pixel_m = PixelAcross(first, frame, side);
+  if (!(eye.distance_m > 0.0 && other.distance_m > 0.0 && pixel_m > 0.0)) return std::nullopt;
+  ProfileGrid grid{.first_m = kFrom_px * pixel_m, .step_m = kStep_px * pixel_m, .count = 0};
+  grid.count = static_cast<int>((kMostInset * frame.width_m - grid.first_m) / grid.step_m);
+  return StereoProfile{.side = side,
+                       .eye = eye,
+                       .other = other,
+                       .grid = grid,
+                       .a = ProfileAcross(first, frame, side, grid),
+                       .b = ProfileAcross(second, frame, side, grid)};
+}
+
+// The edge at place i of the first view's profile, if the second view shows it, too.
+std::optional<ParallaxEdge> EdgeAt(const StereoProfile& profile, int i) {
+  const auto& [side, eye, other, grid, a, b] = profile;
+  const double t0 = grid.InsetAt(i);
+  const auto index = [&](double behind_m) {
+    return (SeenBySecond(profile.eye, profile.other, t0, behind_m) - profile.grid.first_m) /
+           profile.grid.step_m;
+  };
+  const auto [low, high] = std::minmax({index(kNearestEdge_m), index(kDeepestEdge_m)});
+  const auto found = BestMatch(a, i, b, static_cast<int>(std::floor(low)) - 1,
+                               static_cast<int>(std::ceil(high)) + 1);
+  if (!found) return std::nullopt;
+  const Place place = PlaceOf(eye, other, t0, grid.InsetAt(*found));
+  const double by_step =
+      std::abs(PlaceOf(eye, other, t0, grid.InsetAt(*found + 1.0)).behind_m - place.behind_m);
+  // This is false for NaN, too.
+  if (!(std::isfinite(by_step) && place.behind_m > 1.5 * kNearestEdge_m &&
+        place.behind_m < 1.5 * kDeepestEdge_m)) {
+    return std::nullopt;
+  }
+  const bool is_crowded_outside = IsCrowded(a, i, -1);
+  const bool is_crowded = is_crowded_outside || IsCrowded(a, i, 1);
+  return ParallaxEdge{
+      .side = side,
+      .seen_inset_m = t0,
+      .inset_m = place.inset_m,
+      .behind_m = place.behind_m,
+      .sigma_m = by_step * SigmaOfShift(a, i, b, static_cast<int>(std::lround(*found))),
+      .crowding_m = is_crowded ? by_step * kCrowded_px / kStep_px : 0.0,
+      .rise_dn = Rise(a, i),
+      .is_crowded_outside = is_crowded_outside,
+      .is_looked_across = eye.inwards_m < place.inset_m};
+}
+
 }  // namespace
 
 std::vector<ParallaxEdge> FindParallaxEdges(const CameraView& first, const CameraView& second,
                                             const FrameRectangle& frame, Side side) {
-  const Eye eye = EyeOf(first, frame, side);
-  const Eye other = EyeOf(second, frame, side);
-  const double pixel_m = PixelAcross(first, frame, side);
-  if (!(eye.distance_m > 0.0 && other.distance_m > 0.0 && pixel_m > 0.0)) return {};
-  ProfileGrid grid{.first_m = kFrom_px * pixel_m, .step_m = kStep_px * pixel_m, .count = 0};
-  grid.count = static_cast<int>((kMostInset * frame.width_m - grid.first_m) / grid.step_m);
-  const SideProfile a = ProfileAcross(first, frame, side, grid);
-  const SideProfile b = ProfileAcross(second, frame, side, grid);
+  const auto profile = ProfileOf(first, second, frame, side);
+  if (!profile) return {};
   std::vector<ParallaxEdge> edges;
   const int margin = kAlone + kHalfWindow + kHalfStep;
-  for (int i = margin; i + margin < grid.count; ++i) {
-    if (!IsEdge(a, i)) continue;
-    const double t0 = grid.InsetAt(i);
-    const auto index = [&](double behind_m) {
-      return (SeenBySecond(eye, other, t0, behind_m) - grid.first_m) / grid.step_m;
-    };
-    const auto [low, high] = std::minmax({index(kNearestEdge_m), index(kDeepestEdge_m)});
-    const auto found = BestMatch(a, i, b, static_cast<int>(std::floor(low)) - 1,
-                                 static_cast<int>(std::ceil(high)) + 1);
-    if (!found) continue;
-    const Place place = PlaceOf(eye, other, t0, grid.InsetAt(*found));
-    const double by_step =
-        std::abs(PlaceOf(eye, other, t0, grid.InsetAt(*found + 1.0)).behind_m - place.behind_m);
-    // This is false for NaN, too.
-    if (!(std::isfinite(by_step) && place.behind_m > 1.5 * kNearestEdge_m &&
-          place.behind_m < 1.5 * kDeepestEdge_m)) {
-      continue;
-    }
-    const bool is_crowded_outside = IsCrowded(a, i, -1);
-    const bool is_crowded = is_crowded_outside || IsCrowded(a, i, 1);
-    edges.push_back(
-        {.side = side,
-         .seen_inset_m = t0,
-         .inset_m = place.inset_m,
-         .behind_m = place.behind_m,
-         .sigma_m = by_step * SigmaOfShift(a, i, b, static_cast<int>(std::lround(*found))),
-         .crowding_m = is_crowded ? by_step * kCrowded_px / kStep_px : 0.0,
-         .rise_dn = Rise(a, i),
-         .is_crowded_outside = is_crowded_outside,
-         .is_looked_across = eye.inwards_m < place.inset_m});
+  for (int i = margin; i + margin < profile->grid.count; ++i) {
+    if (!IsEdge(profile->a, i)) continue;
+    if (const auto edge = EdgeAt(*profile, i)) edges.push_back(*edge);
   }
   return edges;
 }

@@ -1,4 +1,4 @@
-#include "scenes/gltf/validation/schema_check.h"
+#include "scenes/gltf/validation/structure_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "scenes/targets/paper_target.h"
+#include "scenes/targets/flat_targets.h"
 
 namespace fenestra::gltf {
 namespace {

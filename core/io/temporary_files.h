@@ -1,0 +1,40 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <iosfwd>
+#include <string_view>
+
+namespace fenestra {
+
+/// A name beside `file` that no other process and no other thread uses, for what becomes `file`
+/// when it is complete.
+std::filesystem::path TemporaryBeside(const std::filesystem::path& file);
+
+/// Writes `bytes` to a temporary file in the same folder, which is made if it is missing, and
+/// renames it to `file`: readers see the old file or the whole new one. Throws InputError.
+void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);
+
+/// Writes a file that is too large for memory in the same way: `write` puts it into the stream. If
+/// `write` throws, nothing is left behind.
+void WriteFileAtomically(const std::filesystem::path& file,
+                         const std::function<void(std::ostream&)>& write);
+
+/// A new folder that only this user can enter, removed with its contents at the end of the scope.
+/// It is in memory (/dev/shm) if possible, otherwise among the temporary files. Folders that killed
+/// processes have left behind are removed when the next one is made. Throws InputError if no folder
+/// can be made.
+class PrivateFolder {
+ public:
+  PrivateFolder();
+  ~PrivateFolder();
+  PrivateFolder(const PrivateFolder&) = delete;
+  PrivateFolder& operator=(const PrivateFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace fenestra

@@ -1,0 +1,141 @@
+#include "experiments/study/factor_tables.h"
+
+namespace fenestra {
+namespace {
+
+// The field of the settings that a factor stands for.
+#define FIELD(path) FENESTRA_FIELD(path)
+
+void AddRgbdDepth(FactorTable& t) {
+  t.Switch("rgbd_near_mode", FIELD(rgbd.near_mode),
+           "Whether the range is 0.4–3 m instead of 0.8–4 m.")
+      .Integer("rgbd_depth_width_px", FIELD(rgbd.depth_width_px), {64, 4096},
+               "Width of the depth image.")
+      .Integer("rgbd_depth_height_px", FIELD(rgbd.depth_height_px), {64, 4096},
+               "Height of the depth image.")
+      .Number("rgbd_depth_focal_px", FIELD(rgbd.depth_focal_px), {10.0, 1e4},
+              "Focal length of the depth camera.")
+      .Number("rgbd_projector_baseline_m", FIELD(rgbd.projector_baseline_m), {0.001, 1.0},
+              "Distance from the depth camera to the projector.")
+      .Number("rgbd_disparity_step_px", FIELD(rgbd.disparity_step_px), {0.0, 10.0},
+              "Quantisation step of the disparity.")
+      .Number("rgbd_fixed_disparity_noise_px", FIELD(rgbd.parametric.fixed_disparity_noise_px),
+              {0.0, 10.0},
+              "Standard deviation of the disparity noise that all depth images of a view share; "
+              "parametric model only.")
+      .Number("rgbd_temporal_disparity_noise_px",
+              FIELD(rgbd.parametric.temporal_disparity_noise_px), {0.0, 10.0},
+              "Standard deviation of the disparity noise where dots are as strong as the image "
+              "noise; parametric model only.")
+      .Number(
+          "rgbd_lateral_noise_px", FIELD(rgbd.parametric.lateral_noise_px), {0.0, 10.0},
+          "Standard deviation of where outlines appear in the depth image; parametric model only.")
+      .Number("rgbd_dot_signal_dn", FIELD(rgbd.infrared.dot_signal_dn), {0.0, 1e6},
+              "Signal of a dot on a surface of reflectance 0.8 at 1 m.")
+      .Number("rgbd_dot_irradiance_w_m2", FIELD(rgbd.infrared.dot_irradiance), {1e-6, 1e6},
+              "Peak irradiance of a dot at 1 m.")
+      .Number("rgbd_dark_noise_dn", FIELD(rgbd.infrared.dark_noise_dn), {0.0, 1e4},
+              "Standard deviation of the infra-red image's noise in the dark.")
+      .Number("rgbd_shot_noise_dn", FIELD(rgbd.infrared.shot_noise_dn), {0.0, 1e3},
+              "Variance of the infra-red image's noise per DN of signal.")
+      .Number("rgbd_saturation_dn", FIELD(rgbd.infrared.saturation_dn), {1.0, 1023.0},
+              "Full scale of the infra-red image.")
+      .Number("rgbd_filter_width_nm", FIELD(rgbd.infrared.filter_width_nm), {0.1, 1e3},
+              "Full width of the infra-red filter's pass band.")
+      .Choice("rgbd_depth_model", FIELD(rgbd.depth_model), {"parametric", "speckle"},
+              "Model of the depth image: formulae, or matching in an infra-red image of the dots.")
+      .Integer("rgbd_infrared_width_px", FIELD(rgbd.infrared_width_px), {64, 4096},
+               "Width of the infra-red image that the speckle model matches; a multiple of the "
+               "depth image's.")
+      .Integer("rgbd_averaged_frames", FIELD(rgbd.averaged_frames), {1, 1000},
+               "Number of depth images that are averaged, each with noise of its own.")
+      .Switch("rgbd_registered_depth", FIELD(rgbd.registered_depth),
+              "Whether depth is delivered as the colour camera would see it, as drivers do.")
+      .Number("rgbd_dot_sigma_px", FIELD(rgbd.infrared.dot_sigma_px), {0.1, 1.0},
+              "Standard deviation of a dot's spread in the infra-red image.")
+      .Number("rgbd_speckle_contrast", FIELD(rgbd.infrared.speckle_contrast), {0.0, 1.0},
+              "Contrast of the laser's speckle in a pixel.")
+      .Integer("rgbd_matching_window_width_px", FIELD(rgbd.matching.block_width_px), {3, 15},
+               "Width of the block that is matched; odd.")
+      .Integer("rgbd_matching_window_height_px", FIELD(rgbd.matching.block_height_px), {3, 15},
+               "Height of the block that is matched; odd.")
+      .Number("rgbd_least_correlation", FIELD(rgbd.matching.least_correlation), {0.01, 0.99},
+              "Least correlation coefficient of a match that is accepted.")
+      .Number("rgbd_least_lead", FIELD(rgbd.matching.least_lead), {0.0, 0.99},
+              "Least lead of a match's correlation over that of the next best disparity.")
+      .Number("rgbd_most_unexplained", FIELD(rgbd.matching.most_unexplained), {0.0, 100.0},
+              "Largest variance that a match may leave unexplained besides noise, as a share of "
+              "what it explains.")
+      .Number("rgbd_most_off_centre", FIELD(rgbd.matching.most_off_centre), {0.01, 0.5},
+              "Largest offset of a partly lit block's evidence from its usual centre, as a share "
+              "of the block's width.")
+      .Number("rgbd_search_px", FIELD(rgbd.matching.search_px), {1.0, 200.0},
+              "Range of disparities that is searched, in pixels of a 640-wide image.");
+}
+
+void AddRgbdColor(FactorTable& t) {
+  t.Integer("rgbd_color_width_px", FIELD(rgbd.color.width_px), {64, 4096},
+            "Width of the colour image.")
+      .Integer("rgbd_color_height_px", FIELD(rgbd.color.height_px), {64, 4096},
+               "Height of the colour image.")
+      .Number("rgbd_color_focal_px", FIELD(rgbd.color.focal_px), {10.0, 1e4},
+              "Focal length of the colour camera.")
+      .Number("rgbd_color_offset_m", FIELD(rgbd.color_offset_m), {-1.0, 1.0},
+              "Position of the colour camera to the right of the depth camera.")
+      .Number("rgbd_color_f_number", FIELD(rgbd.color.lens.f_number), {0.7, 32.0},
+              "F-number of the colour camera's lens.")
+      .Number("rgbd_color_transmission", FIELD(rgbd.color.lens.transmission), {0.01, 1.0},
+              "Share of the light that the lens transmits.")
+      .Number(
+          "rgbd_color_blur_px", FIELD(rgbd.color.lens.blur_sigma_px), {0.0, 10.0},
+          "Standard deviation of the lens' Gaussian point spread on the optical axis, in green.")
+      .Number("rgbd_color_corner_blur_px", FIELD(rgbd.color.lens.corner_blur_sigma_px), {0.0, 10.0},
+              "Standard deviation of the lens' Gaussian point spread in the image's corners, at "
+              "least that on the axis.")
+      .Number("rgbd_color_red_blur", FIELD(rgbd.color.red_blur), {0.1, 10.0},
+              "Blur in red as a multiple of that in green.")
+      .Number("rgbd_color_blue_blur", FIELD(rgbd.color.blue_blur), {0.1, 10.0},
+              "Blur in blue as a multiple of that in green.")
+      .Number("rgbd_color_corner_illumination", FIELD(rgbd.color.lens.corner_illumination),
+              {0.05, 1.0},
+              "Share of the light that reaches the corners, besides natural vignetting.")
+      .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color.electrons_per_lux_s), {1.0, 1e8},
+              "Electrons that a pixel collects per lux second.")
+      .Number("rgbd_color_saturation_e", FIELD(rgbd.color.sensor.saturation_e), {10.0, 1e7},
+              "Electrons at full scale of a colour pixel.")
+      .Number("rgbd_color_read_noise_e", FIELD(rgbd.color.sensor.read_noise_e), {0.0, 1e4},
+              "Standard deviation of the colour camera's read noise.")
+      .Switch("rgbd_color_noise", FIELD(rgbd.color.sensor.noise),
+              "Whether colour images have temporal noise, which differs from image to image.")
+      .Switch("rgbd_color_fixed_pattern", FIELD(rgbd.color.sensor.fixed_pattern),
+              "Whether the colour camera's pixels are non-uniform.")
+      .Switch("rgbd_color_auto_exposure", FIELD(rgbd.color.auto_exposure),
+              "Whether the exposure is chosen by the image's mean.")
+      .Number("rgbd_color_mean_dn", FIELD(rgbd.color.mean_dn), {1.0, 254.0},
+              "Mean of the sRGB-encoded image that automatic exposure aims at.")
+      .Number("rgbd_color_exposure_ms", FIELD(rgbd.color.exposure_s), {1e-4, 1e4, kMilli},
+              "Exposure time without automatic exposure.")
+      .Integer("rgbd_edge_samples", FIELD(rgbd.edge_samples_per_pixel), {4, 256},
+               "Rays through a pixel with more in it than one edge: 16, 64 or 256; 4: as for any "
+               "other pixel.");
+}
+
+void AddRgbdMotion(FactorTable& t) {
+  AddMotionFactors(t, "rgbd", FIELD(rgbd.motion));
+  t.Number("rgbd_infrared_readout_ms", FIELD(rgbd.infrared_readout_s), {0.0, 1000.0, kMilli},
+           "Time from the depth camera's first row to its last in a rolling shutter; 0: none.")
+      .Number("rgbd_color_readout_ms", FIELD(rgbd.color.readout_s), {0.0, 1000.0, kMilli},
+              "Time from the colour camera's first row to its last in a rolling shutter; 0: none.");
+}
+
+#undef FIELD
+
+}  // namespace
+
+void AddRgbdFactors(FactorTable& table) {
+  AddRgbdDepth(table);
+  AddRgbdColor(table);
+  AddRgbdMotion(table);
+}
+
+}  // namespace fenestra
