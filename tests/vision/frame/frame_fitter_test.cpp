@@ -1,4 +1,4 @@
-#include "vision/frame/adjustment/frame_fit.h"
+#include "vision/frame/frame_fitter.h"
 
 #include <gtest/gtest.h>
 
