@@ -61,6 +61,7 @@ endfunction()
 fenestra_precompile(hot -O3)
 fenestra_precompile(cold -O1 <nlohmann/json.hpp>)
 fenestra_precompile(test -O1 <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+target_link_libraries(fenestra_precompiled_test PRIVATE GTest::gmock)
 # fenestra_compile(<target> <name>): as fenestra_precompile(<name> ...) says.
 function(fenestra_compile target name)
   get_target_property(optimisation fenestra_precompiled_${name} optimisation)

@@ -1,11 +1,10 @@
-#include "experiments/analysis/cell_summary.h"
+#include "experiments/analysis/cell_tally.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "experiments/analysis/cell_tally.h"
 #include "experiments/report/report.h"
 #include "tests/experiments/trial/record_examples.h"
 
@@ -29,7 +28,7 @@ std::vector<TrialRecord> MixedCell() {
           RowWithError(0, 6, Outcome::kOutOfView, {0.9, 0.9, 0.9})};
 }
 
-TEST(Summary, CountsHaveTheirDenominators) {
+TEST(CellTally, CountsHaveTheirDenominators) {
   const std::vector<TrialRecord> rows = MixedCell();
   const auto summaries = Summarise(rows);
   ASSERT_EQ(summaries.size(), 1u);
@@ -49,7 +48,7 @@ TEST(Summary, CountsHaveTheirDenominators) {
   EXPECT_EQ(summary.counts[Outcome::kOutOfView], 1);
 }
 
-TEST(Summary, MomentsAreOverTheHitsAlone) {
+TEST(CellTally, MomentsAreOverTheHitsAlone) {
   const std::vector<TrialRecord> rows = MixedCell();
   const auto summaries = Summarise(rows);
   const HitErrors& errors = summaries.at(0).hit_errors.value();
@@ -61,7 +60,7 @@ TEST(Summary, MomentsAreOverTheHitsAlone) {
   EXPECT_NEAR(errors.bias_standard_error->z(), 0.02, 1e-14);  // s/√2 of {0.12, 0.08}.
 }
 
-TEST(Summary, DepthAndAcrossMakeUpTheWhole) {
+TEST(CellTally, DepthAndAcrossMakeUpTheWhole) {
   std::vector<TrialRecord> rows;
   for (int trial = 0; trial < 50; ++trial) rows.push_back(RandomHit(0, trial));
   const HitErrors errors = Summarise(rows).at(0).hit_errors.value();
@@ -71,7 +70,7 @@ TEST(Summary, DepthAndAcrossMakeUpTheWhole) {
               1e-17);
 }
 
-TEST(Summary, BoundsAreOverTheHitsThatTheErrorsAreOver) {
+TEST(CellTally, BoundsAreOverTheHitsThatTheErrorsAreOver) {
   std::vector<TrialRecord> rows = MixedCell();
   const Eigen::Vector3d variances(0.01, 0.02, 0.06);
   double scale = 1.0;
@@ -98,7 +97,7 @@ TEST(Summary, BoundsAreOverTheHitsThatTheErrorsAreOver) {
   EXPECT_FALSE(unbounded.OverBound().has_value());
 }
 
-TEST(Summary, QuantilesAreOverAllAttemptsWithInfinityForThoseWithoutEstimate) {
+TEST(CellTally, QuantilesAreOverAllAttemptsWithInfinityForThoseWithoutEstimate) {
   // The six attempts: 0.13, 0.081, 0.5, 3, inf, inf. The third smallest is the median.
   const std::vector<TrialRecord> rows = MixedCell();
   const auto summaries = Summarise(rows);
@@ -106,7 +105,7 @@ TEST(Summary, QuantilesAreOverAllAttemptsWithInfinityForThoseWithoutEstimate) {
   EXPECT_EQ(summaries.at(0).p95_error_m.value(), kInfinity);
 }
 
-TEST(Summary, DecliningTheHardTrialsDoesNotImproveTheQuantile) {
+TEST(CellTally, DecliningTheHardTrialsDoesNotImproveTheQuantile) {
   std::vector<TrialRecord> honest;
   for (int trial = 0; trial < 20; ++trial) {
     const bool hard = trial < 2;
@@ -119,7 +118,7 @@ TEST(Summary, DecliningTheHardTrialsDoesNotImproveTheQuantile) {
             Summarise(honest).at(0).p95_error_m.value());
 }
 
-TEST(Summary, ScenesWithoutATargetHaveTheirOwnDenominator) {
+TEST(CellTally, ScenesWithoutATargetHaveTheirOwnDenominator) {
   std::vector<TrialRecord> rows = {Row(0, 0, Outcome::kClear), Row(0, 1, Outcome::kFalseAlarm),
                                    Row(0, 2, Outcome::kClear), Row(0, 3, Outcome::kCrashed)};
   rows[3].score.truth_p_CO.reset();
@@ -132,7 +131,7 @@ TEST(Summary, ScenesWithoutATargetHaveTheirOwnDenominator) {
   EXPECT_FALSE(summary.p95_error_m.has_value());
 }
 
-TEST(Summary, DoesNotDependOnTheOrderOfTheRows) {
+TEST(CellTally, DoesNotDependOnTheOrderOfTheRows) {
   std::vector<TrialRecord> rows;
   for (int cell = 0; cell < 3; ++cell) {
     for (int trial = 0; trial < 10; ++trial) {
@@ -155,7 +154,7 @@ TEST(Summary, DoesNotDependOnTheOrderOfTheRows) {
   }
 }
 
-TEST(Summary, ReasonsAreOrderedByOutcomeAndFrequency) {
+TEST(CellTally, ReasonsAreOrderedByOutcomeAndFrequency) {
   std::vector<TrialRecord> rows;
   for (int trial = 0; trial < 6; ++trial) rows.push_back(Row(0, trial, Outcome::kMissed));
   rows[0].score.reason = "few_corners";
@@ -168,7 +167,7 @@ TEST(Summary, ReasonsAreOrderedByOutcomeAndFrequency) {
   EXPECT_EQ(reasons[2].outcome, Outcome::kCrashed);
 }
 
-TEST(Summary, TimesAreMediansOverTrialsThatDidNotCrash) {
+TEST(CellTally, TimesAreMediansOverTrialsThatDidNotCrash) {
   std::vector<TrialRecord> rows;
   for (int trial = 0; trial < 4; ++trial) {
     rows.push_back(Row(0, trial, trial == 3 ? Outcome::kCrashed : Outcome::kMissed));
@@ -184,7 +183,7 @@ TEST(Summary, TimesAreMediansOverTrialsThatDidNotCrash) {
   EXPECT_EQ(summary.stage_medians[1].median_s, 0.5);
 }
 
-TEST(Summary, ARowThatOccursTwiceIsAFault) {
+TEST(CellTally, ARowThatOccursTwiceIsAFault) {
   const std::vector<TrialRecord> rows = {Row(0, 1, Outcome::kMissed), Row(0, 1, Outcome::kMissed)};
   EXPECT_THROW(Summarise(rows), std::logic_error);
 }
