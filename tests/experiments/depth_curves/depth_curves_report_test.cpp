@@ -20,7 +20,8 @@ StructuredLightOptions SmallSensor(DepthModel model) {
 TEST(DepthCurvesReportTest, BothModelsStandInOneReport) {
   const DepthCurves parametric =
       MeasureDepthCurves(SmallSensor(DepthModel::kParametric), RandomStream(1));
-  const DepthCurves speckle = MeasureDepthCurves(SmallSensor(DepthModel::kMatched), RandomStream(1));
+  const DepthCurves speckle =
+      MeasureDepthCurves(SmallSensor(DepthModel::kMatched), RandomStream(1));
   const std::string report =
       DepthCurvesMarkdown(SmallSensor(DepthModel::kParametric), parametric, speckle);
   EXPECT_NE(report.find("Khoshelham"), std::string::npos);
