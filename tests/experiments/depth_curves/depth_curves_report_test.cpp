@@ -1,7 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/depth_curves/depth_curves.h"
+#include "experiments/depth_curves/depth_curves_picture.h"
+#include "experiments/depth_curves/depth_curves_report.h"
 
 namespace fenestra {
 namespace {
