@@ -19,7 +19,7 @@ const std::vector<std::string>& HueNames();
 struct Paint {
   double reflectance = 0.5;        ///< Rec. 709 luminance of the reflectance.
   double reflectance_830nm = 0.5;  ///< At the structured-light projector's wavelength.
-  Hue hue = Hue::kNeutral;         ///< Of the visible reflectance.
+  Hue hue = Hue::kNeutral;         ///< Hue of the visible reflectance.
 };
 
 /// Linear red, green and blue of a hue, scaled to a luminance of 1.

@@ -9,7 +9,9 @@
 #include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"
+#include "experiments/report/detector_comparison_report.h"
 #include "experiments/report/envelope_report.h"
+#include "experiments/report/error_budget_report.h"
 #include "experiments/report/report_section.h"
 #include "experiments/sampling/causes.h"
 

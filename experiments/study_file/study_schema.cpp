@@ -11,6 +11,7 @@
 #include "experiments/study_file/factor_reader.h"
 #include "experiments/study_file/rule_reader.h"
 #include "experiments/study_file/study_blocks.h"
+#include "experiments/study_file/part_reader.h"
 #include "experiments/study_file/study_reader.h"
 
 namespace fenestra {

@@ -43,7 +43,7 @@ class DiffuseLight {
   const TracedScene& traced_;
   const LightBake& bake_;
   int bounces_;
-  std::vector<Spectrum> reflectances_;  // Of each side.
+  std::vector<Spectrum> reflectances_;  // Reflectance of each side.
   std::vector<Spectrum> emissions_;     // Exitance of each side.
 };
 

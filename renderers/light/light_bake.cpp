@@ -6,9 +6,8 @@
 #include <map>
 #include <numbers>
 
-#include "renderers/light/hemisphere.h"
+#include "renderers/light/bake_rays.h"
 #include "renderers/light/lane_kernels.h"
-#include "renderers/light/surface_corners.h"
 
 namespace fenestra {
 namespace {
@@ -21,7 +20,7 @@ constexpr uint32_t kOpen = ~0u;
 
 // The end of a ray.
 struct Ending {
-  uint32_t side = kOpen;  // Of the surface that was hit.
+  uint32_t side = kOpen;  // The side of the surface that was hit.
   float transmittance = 0.0f;
   vec3 direction_W{0.0f};
 

@@ -7,13 +7,14 @@
 
 namespace fenestra {
 
-/// The rays of all pixels of a camera, undistorted once: normalised image coordinates (X/Z, Y/Z)
-/// at the pixel corners, between which samples are interpolated bilinearly (with
-/// 10 % barrel distortion over 400 px the error is below 2e-4 px, far from the centre). Lens
-/// distortion is thus part of the rays; no image is ever warped.
+/// The rays of all pixels of a camera, undistorted once: normalised image coordinates (X/Z, Y/Z) at
+/// the pixel corners, between which samples are interpolated bilinearly. With 10 % barrel
+/// distortion over 400 px the error of that is below 2e-4 px, far from the centre. Lens distortion
+/// is thus part of the rays, and no image is ever warped.
 class RayGrid {
  public:
-  /// Throws InputError if a pixel of the image lies outside the camera's valid domain.
+  /// Computes the rays of all corners. Throws InputError if a pixel of the image lies outside the
+  /// camera's valid domain.
   explicit RayGrid(const CameraModel& camera);
 
   const CameraModel& camera() const { return camera_; }
@@ -26,7 +27,8 @@ class RayGrid {
                     static_cast<size_t>(column)];
   }
 
-  /// All corners row by row, width + 1 each: x and y in turns.
+  /// The coordinates of all corners, row by row with width + 1 corners each: x and y in turns, for
+  /// loops over lanes.
   const float* corner_data() const { return corners_.data()->data(); }
 
  private:

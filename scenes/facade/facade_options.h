@@ -10,7 +10,7 @@ namespace fenestra {
 
 // Where no source is given, sizes and reflectances are ordinary ones, chosen by us.
 
-/// What a wall's texture shows; see MakeWallPattern.
+/// The material whose look a wall's texture has; see MakeWallPattern.
 enum class WallFinish { kPlaster, kBrick, kConcrete, kCladding };
 
 /// The names of the finishes, in order: plaster, brick, ...

@@ -17,8 +17,9 @@ namespace {
 constexpr double kShortestExposure = 20e-6;
 constexpr double kLongestExposure = 1.0 / 30.0;
 
-// Where a function that does not fall is zero to within 0.01, or else the end that comes nearer:
-// regula falsi, with the Illinois rule of halving the value of an end that stays twice.
+// The zero of a function that does not fall, to within 0.01 of its value, or else the end that
+// comes nearer to it. Regula falsi, with the Illinois rule of halving the value of an end that
+// stays twice.
 template <typename Function>
 double RisingZero(double low, double high, const Function& f) {
   constexpr double kNear = 0.01;
@@ -153,7 +154,8 @@ cv::Mat1b ColorCamera::Develop(const cv::Mat1f& electrons_per_s, double exposure
                                const RandomStream& noise) const {
   const cv::Mat1w dn =
       sensor_.Expose(electrons_per_s, {.exposure_s = exposure_s, .gain = 1.0}, noise);
-  // Black is taken away before the encoding. A code for each value that the sensor gives.
+  // The black level is subtracted before the encoding. There is a code for each value of the
+  // sensor.
   const double black_dn = sensor_.BlackLevelDn();
   const double per_dn = 1.0 / (sensor_.FullScaleDn() - black_dn);
   cv::Mat1f linear(1, sensor_.FullScaleDn() + 1);
@@ -167,7 +169,7 @@ cv::Mat1b ColorCamera::Develop(const cv::Mat1f& electrons_per_s, double exposure
 
 double ColorCamera::Exposure(const std::array<cv::Mat1f, 3>& electrons_per_s) const {
   if (!options_.auto_exposure) return options_.exposure_s;
-  // Without noise, on every fourth pixel of every fourth row.
+  // The mean is computed without noise on every fourth pixel of every fourth row.
   std::array<cv::Mat1f, 3> sparse;
   for (size_t i = 0; i < sparse.size(); ++i) {
     cv::resize(electrons_per_s[i], sparse[i], {}, 0.25, 0.25, cv::INTER_NEAREST);

@@ -13,7 +13,7 @@
 namespace fenestra {
 namespace {
 
-// Temperature at which dark current is stated.
+// Temperature for which the dark current is stated.
 constexpr double kReferenceTemperature_c = 25.0;
 
 double AdcFullScale(const ImageSensorOptions& o) {
@@ -41,7 +41,7 @@ struct Readout {
   float full_scale_dn;
 };
 
-// Photo-electrons of a row, with sensitivities where there are any.
+// Mean electrons of a row, with the pixels' sensitivities and dark current.
 FENESTRA_WIDE void CollectRow(const float* electrons_per_s, const float* sensitivity,
                               const Readout& readout, float* mean_e, int count) {
   for (int u = 0; u < count; ++u) {
@@ -49,7 +49,7 @@ FENESTRA_WIDE void CollectRow(const float* electrons_per_s, const float* sensiti
   }
 }
 
-// mean_e becomes the electrons of one draw. z is standard normal.
+// Replaces the means by one draw of electrons. z is standard normal.
 FENESTRA_WIDE void AddNoiseRow(const float* z, float read_variance_e2, float* mean_e, int count) {
   for (int u = 0; u < count; ++u) {
     const float mean = mean_e[u];
@@ -96,7 +96,7 @@ ExposureSetting ChooseExposure(const ExposureOptions& exposure, const ImageSenso
                                double mean_electrons_per_s) {
   if (!exposure.automatic) return {.exposure_s = exposure.exposure_s, .gain = exposure.gain};
   const double wanted_s = exposure.set_point * sensor.saturation_e / mean_electrons_per_s;
-  // Written so that darkness (a division by zero) gives the most.
+  // Written so that darkness, a division by zero, gives the longest exposure.
   const double exposure_s = std::max(exposure.shortest_s, std::min(exposure.longest_s, wanted_s));
   const double gain = std::max(1.0, std::min(exposure.largest_gain, wanted_s / exposure.longest_s));
   return {.exposure_s = exposure_s, .gain = gain};

@@ -43,8 +43,8 @@ std::vector<double> GaussianOverPixel(double sigma_px, int reach) {
 HalfTaps TapsOf(double sigma_px) {
   FENESTRA_CHECK(sigma_px >= 0.0 && sigma_px <= 20.0, "blur must be between 0 and 20 px");
   const int reach = static_cast<int>(std::ceil(5.0 * sigma_px + 0.25));
-  // Half-pixel steps tell a narrow Gaussian's variance a little wrong: find the one whose weights
-  // have the wanted variance.
+  // At half-pixel steps the weights of a narrow Gaussian have a slightly different variance: find
+  // the Gaussian whose weights have the wanted variance.
   const double variance = sigma_px * sigma_px + 1.0 / 16.0;
   const double first = -reach - 0.25;
   double low = 1e-3;
@@ -66,7 +66,7 @@ FENESTRA_WIDE void AddScaled(const float* in, float weight, float* sum, int coun
   for (int i = 0; i < count; ++i) sum[i] += weight * in[i];
 }
 
-// Floats in a row.
+// Number of floats in a row.
 int WidthOf(const cv::Mat& image) {
   return image.cols * image.channels();
 }
@@ -211,7 +211,7 @@ cv::Mat Gather(const QuarterImages& quarters, const PointSpread& spread) {
   cv::Mat blurred = GatherQuarters(quarters, TapsOf(spread.centre_sigma_px));
   const double rest = spread.corner_sigma_px * spread.corner_sigma_px -
                       spread.centre_sigma_px * spread.centre_sigma_px;
-  // A three-tap kernel of variance 1/4 is close to a Gaussian; more of it takes several.
+  // A three-tap kernel of variance 1/4 is close to a Gaussian; larger variances take several.
   constexpr double kLargestVariance = 0.25;
   const int passes = static_cast<int>(std::ceil(rest / kLargestVariance));
   for (int i = 0; i < passes; ++i) SpreadOnce(blurred, rest / passes);

@@ -18,7 +18,7 @@ Eigen::Matrix3d MeanRotation(const Eigen::Vector3d& rotation_vector) {
   const double angle = rotation_vector.norm();
   const Eigen::Matrix3d K = Cross(rotation_vector);
   const double angle2 = angle * angle;
-  // Series where the closed form would divide by little.
+  // The series replaces the closed form where that would divide by a small number.
   const bool small = angle < 1e-4;
   const double a = small ? 0.5 - angle2 / 24.0 : (1.0 - std::cos(angle)) / angle2;
   const double b =

@@ -70,7 +70,7 @@ Pose BoardPoseInView(const StereoCalibration& design, const BoardSessionOptions&
   return *X_LG;
 }
 
-// Where a rig has to stand in order to see the board as the design says.
+// Pose of a rig from which it sees the board where the design says.
 Pose RigPoseFor(const StereoRig& rig, const BoardSessionOptions& session,
                 const RandomStream& view) {
   const StereoCalibration design = DesignOf(rig.options());

@@ -13,7 +13,7 @@
 namespace fenestra {
 namespace {
 
-// Presumes positive lengths.
+// Assumes positive lengths.
 CameraModel DesignedCamera(const StereoRigOptions& options) {
   const double f_px = options.focal_length_m / options.pixel_pitch_m;
   return CameraModel({.width_px = options.width_px,
@@ -60,7 +60,7 @@ CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& cam
   return CameraModel(built);
 }
 
-// The displacement of a camera from where it should be.
+// The displacement of a camera from its place in the design.
 Pose Mounting(const StereoRigOptions& options, const RandomStream& camera) {
   if (options.as_designed) return Pose();
   const RigTolerances& tolerances = options.tolerances;
@@ -191,7 +191,7 @@ QuarterImages StereoRig::Light(const Camera& camera, const Pose& X_BC, const Ray
   // Pictures in between, half a pixel apart at the fastest: the pixel's own area joins them up.
   constexpr double kStep_px = 0.5;
   constexpr double kMostPictures = 64.0;
-  // Presumed: nothing passes the camera closer by.
+  // Assumes that nothing is closer to the camera.
   constexpr double kNearest_m = 0.5;
   const double motion_px =
       ImageMotion(options_.motion, exposure_s, camera.rays.camera().parameters().fx_px,

@@ -10,12 +10,12 @@
 namespace fenestra {
 namespace {
 
-// Fields of BlockEvidence: those that depend on a block's own disparity, and those that it
-// has not, which are gathered column by column and then row by row.
+// Fields of BlockEvidence: those that depend on a block's own disparity, and those that do
+// not, which are gathered column by column and then row by row.
 enum OwnField { kEvidence, kMoment, kDisparity, kOwnFields };
 enum BoxField { kDots, kDots2, kAmbient, kSmooth2, kStrongest, kStrongestDisparity, kBoxFields };
 
-// How much of each pixel a side of this length covers, of all of it.
+// Share of each pixel in a side of this length.
 std::vector<float> Weights(double side_px) {
   const int reach = static_cast<int>(std::ceil(0.5 * side_px - 0.5));
   std::vector<float> weights;
@@ -170,7 +170,7 @@ double SumOfGaussian(double w) {
 
 float ChanceMatch::Best(float enough, float nu) const {
   const double least = static_cast<double>(enough) / deviation;
-  // Spares most blocks the functions: 1000 Φ(-5) = Φ(-3.4).
+  // Most blocks need not evaluate the functions below: 1000 Φ(-5) = Φ(-3.4).
   if (least > 5.0 && nu < 3.4f && places < 1000.0) return -1.0f;
   const double share = NormalShare(static_cast<double>(nu));
   if (share <= std::pow(NormalShare(least), places)) return -1.0f;

@@ -11,9 +11,9 @@ namespace {
 
 constexpr int kCells = DotPattern::kTileWidth * DotPattern::kTileHeight;
 
-// Each dot is put where fewest others are, of so many places drawn at random.
+// Number of places that are drawn for each dot, which is put where the fewest others are near.
 constexpr int kCandidates = 40;
-// How far dots feel each other [cells].
+// Distance up to which dots repel each other [cells].
 constexpr double kRange = 2.0;
 constexpr int kReach = 8;
 

@@ -18,7 +18,7 @@ std::vector<float> Normals(const RandomStream& stream, size_t count) {
   return values;
 }
 
-// What a pixel would get of dots and of ambient light [DN] if all of it saw what one ray sees.
+// Light of dots and ambient light of a pixel [DN] if all of it had the view of one ray.
 struct Ray {
   const AovImages& aovs;
   cv::Point place;  // In aovs.

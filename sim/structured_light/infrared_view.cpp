@@ -6,7 +6,7 @@
 namespace fenestra {
 namespace {
 
-// An offset may be of 64 pixels: in an image that is no wider, every place is within reach.
+// Offsets may be up to 64 pixels: they reach every place of an image that is no wider.
 constexpr int kFewColumns = 64;
 constexpr int kFewRows = 48;
 constexpr std::ptrdiff_t kPixelsAtOnce = kFewColumns * kFewRows / PixelParts::kPerPixel;
@@ -89,7 +89,7 @@ std::vector<cv::Point> CrossedPixels(const AovImages& aovs, double fb) {
   const cv::Size size = aovs.depth_m.size();
   const auto jump = static_cast<float>(kJump_px / fb);
   const auto differ = [&](cv::Point a, cv::Point b) {
-    // Without a surface depth is NaN, but then so is the object another or none on both sides.
+    // Without a surface the depth is NaN, but then the objects differ, too, or both are none.
     return aovs.object_id(a) != aovs.object_id(b) || aovs.sees_point(a) != aovs.sees_point(b) ||
            aovs.sees_sun(a) != aovs.sees_sun(b) ||
            std::abs(1.0f / aovs.depth_m(a) - 1.0f / aovs.depth_m(b)) > jump;

@@ -7,7 +7,7 @@
 #include "core/geometry/camera_model.h"
 #include "renderers/ray_caster.h"
 #include "renderers/tracing/ray_grid.h"
-#include "sim/motion/moving_rays.h"
+#include "sim/motion/rolling_shutter.h"
 
 namespace fenestra {
 

@@ -73,7 +73,7 @@ ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& li
 
 NoReturn MatchedDepth::Reason(const AovImages& aovs, cv::Point pixel,
                               const PatternMatches& matches) const {
-  // Blocks that straddle an outline match beyond it; where nothing is, no depth shall stand.
+  // Blocks that straddle an outline match beyond it, but pixels without a surface have no depth.
   if (!std::isfinite(aovs.depth_m(pixel))) return NoReturn::kNoSurface;
   if (std::isfinite(matches.disparity_px(pixel))) return NoReturn::kNone;
   if (matches.correlation(pixel) <= -1.0f) return NoReturn::kBorder;

@@ -33,7 +33,7 @@ bool Covers(cv::Size size, int reach_u, int reach_v, int u, int v, double scale)
          v * scale >= reach_v && v * scale + reach_v <= size.height * scale - 1.0;
 }
 
-// Of how many places of the search the best is sought. A process of autocorrelation exp(-k²/4σ_p²)
+// Width of one of the independent places of the search. A process of autocorrelation exp(-k²/4σ_p²)
 // exceeds a high level u at u/(2 √π σ_p) independent places a pixel (Rice): about two, for u = 4.
 constexpr double kPlaceWidth_px = 0.5;
 
@@ -60,7 +60,7 @@ struct ParametricDepth::Match {
   float explained = 0.0f;      ///< ρ² V
   float noise = 0.0f;          ///< σ²
   float strength = 0.0f;       ///< √⟨s²⟩ [DN]
-  float off_centre_px = 0.0f;  ///< Of the evidence, along the rows, in a 640-wide image.
+  float off_centre_px = 0.0f;  ///< Centre of the evidence along the rows, in a 640-wide image.
   float disparity_px = 0.0f;   ///< Mean over the evidence.
 };
 
@@ -184,7 +184,7 @@ bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival
 
 float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
                             const Noise& noise) const {
-  // Clipped, the block has not even noise to match.
+  // A saturated block does not even have noise that could match.
   if (block.ambient >= static_cast<float>(infrared_.saturation_dn - 0.5)) return kNaN;
   const float own_px = light.disparity_px(pixel);
   const float strongest_px = block.strongest_disparity;
@@ -202,7 +202,7 @@ float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block,
   const float chance = BestByChance(
       match, measured < least ? std::max(least, measured + lead) : measured - lead, noise);
   if (chance > measured) {
-    // Some other place fits better: anywhere.
+    // A random place of the search fits better.
     if (!IsAccepted(match, chance, measured, noise)) return kNaN;
     return static_cast<float>(search_px_ * NormalShare(static_cast<double>(noise.temporal)));
   }
@@ -212,9 +212,10 @@ float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block,
 
 float ParametricDepth::DisparityError(const Match& match, float measured,
                                       const Noise& noise) const {
-  // What blocks hold besides pattern and noise disturbs them as the laser's speckle does a whole
-  // one. Of a step in brightness, where an outline crosses, a quarter does: fitted, as is the root
-  // by which blocks have less noise that correlate better than they should.
+  // Variance besides pattern and noise disturbs a block as the laser's speckle disturbs a whole
+  // one. A quarter of the variance of a step in brightness, where an outline crosses, counts. That
+  // is fitted, as is the root by which blocks with a better correlation than expected have less
+  // noise.
   constexpr float kOfStep = 0.25f;
   const float besides = std::max(
       0.0f, match.variance - match.explained - match.noise - (1.0f - kOfStep) * match.step);

@@ -5,7 +5,7 @@
 #include "core/geometry/camera_model.h"
 #include "core/random/random_stream.h"
 #include "renderers/ray_caster.h"
-#include "sim/motion/moving_rays.h"
+#include "sim/motion/rolling_shutter.h"
 #include "sim/structured_light/block_evidence.h"
 #include "sim/structured_light/disparity.h"
 #include "sim/structured_light/explained_depth.h"

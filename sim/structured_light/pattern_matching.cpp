@@ -21,7 +21,7 @@ namespace {
 // Grey values of the memorised pattern: a dot's peak is half of this, for dots may overlap.
 constexpr float kPatternScale = 127.0f;
 
-// Below any correlation, and so far from any step that all steps are away from it.
+// Values below any correlation, and far from any step.
 constexpr float kNoScore = -100.0f;
 
 // Column sums of products move down by one row.
@@ -63,7 +63,7 @@ FENESTRA_WIDE void Correlate(const int* products, float pixels, const int* image
   }
 }
 
-// All bits set where it holds.
+// All bits are set if the condition holds.
 inline int32_t MaskOf(bool holds) {
   return -static_cast<int32_t>(holds);
 }
@@ -192,8 +192,9 @@ PatternMatches PatternMatcher::Match(const cv::Mat1w& image, int row_step) const
   const int inside = width - 2 * reach_u;
   if (inside <= 0 || size_.height <= 2 * reach_v) return matches;
 
-  // Row by row, so that what is remembered of a row's pixels stays at hand while all disparities
-  // are tried. Disparity least + k/2 is the pattern at u - d; phase 1 has it half a pixel further.
+  // Matching goes row by row, so that the scores of a row's pixels stay in the cache while all
+  // disparities are tried. Disparity least + k/2 is the pattern at u - d; phase 1 has it half a
+  // pixel further.
   const int steps = 2 * (most_ - least_);
   const auto pattern_row = [&](int k, const cv::Mat& of, int v) {
     return of.ptr<int>(v) + most_ - least_ - k / 2;

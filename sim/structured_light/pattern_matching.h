@@ -14,7 +14,7 @@ namespace fenestra {
 struct PatternMatchingOptions {
   /// Disparities from that of infinite distance to this are searched, in pixels of a 640-wide
   /// image, and farther if the nearest distance of the range demands it, as it does in near mode.
-  /// What is nearer or farther than the range is thus recognised, and not taken for something else.
+  /// Surfaces beyond the range are thus recognised, instead of being mistaken for others.
   double search_px = 64.0;
   int block_width_px = 9;   ///< Odd, 3 to 15.
   int block_height_px = 9;  ///< Odd, 3 to 15.
@@ -44,7 +44,7 @@ void Validate(const PatternMatchingOptions& options);
 /// The place of each pixel's block in the memorised pattern: disparities [px], NaN without match.
 struct PatternMatches {
   cv::Mat1f disparity_px;
-  cv::Mat1f correlation;  ///< Of the best place; -1 where none could be tried.
+  cv::Mat1f correlation;  ///< Correlation of the best place; -1 where none could be tried.
 };
 
 /// Finds, for the block I around each pixel (u, v) of an infra-red image, the disparity d that

@@ -36,7 +36,7 @@ DisparityRange RangeOf(const StructuredLightOptions& o) {
                             o.disparity_step_px, o.near_mode);
 }
 
-// [px of the infra-red image]
+// The largest disparity that is searched [px of the infra-red image].
 double MatchingSearchEnd(const StructuredLightOptions& o) {
   return o.matching.SearchEnd(RangeOf(o)) * o.infrared_width_px / DisparityRange::kImageWidth;
 }
@@ -137,12 +137,12 @@ ExplainedDepth StructuredLightSensor::AverageDepth(const RayCaster& caster,
   for (int i = 1; i < options_.averaged_frames; ++i) {
     const RandomStream image_noise = shot.Child("frame", static_cast<uint64_t>(i));
     const Pose X_WBi = PoseAt(X_WB, options_.motion, -i / kImageRate_hz);
-    // From elsewhere the laser's speckle is another one.
+    // From another pose the laser's speckle is different.
     const RandomStream& view = options_.motion.still() ? shot : image_noise;
     const ExplainedDepth next = OneImage(caster, lighting, X_WBi, view, image_noise);
     cv::add(sum, next.depth.raw, sum, cv::noArray(), CV_64F);
     cv::add(returns, 1.0, returns, next.depth.raw != 0);
-    // The reason is the first one that was given.
+    // The reason of a hole is that of the first image with a hole there.
     next.no_return.copyTo(first.no_return, first.no_return == 0);
   }
   const cv::Mat1b counts = returns >= 0.5 * options_.averaged_frames;

@@ -33,7 +33,8 @@ const tinygltf::Value* InstanceAttributes(const tinygltf::Node& node);
 /// Checks that the attributes have allowed types and are equally long.
 void CheckInstancing(const tinygltf::Model& model, Faults& faults);
 
-/// The number of instances, 1 without the extension. No data is read for it.
+/// The number of instances of the node's mesh: the length of its attributes, or 1 without the
+/// extension. No data is read for it.
 size_t InstanceCount(const tinygltf::Model& model, const tinygltf::Node& node);
 
 }  // namespace fenestra::gltf

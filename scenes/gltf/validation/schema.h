@@ -68,9 +68,9 @@ struct Property {
 /// An object of the schema.
 struct ObjectSchema {
   std::vector<Property> properties = {};
-  /// Extensions that may stand here. One of ours that stands elsewhere is a fault.
+  /// Extensions that are allowed here. A supported extension elsewhere is a fault.
   std::vector<std::pair<std::string_view, const ObjectSchema*>> extensions = {};
-  /// What `extras.fenestra` may hold here.
+  /// Allowed members of `extras.fenestra`, if any.
   const ObjectSchema* extras = nullptr;
   /// Every member is a reference into this root array (a primitive's attributes).
   std::string_view members_refer_to = {};
@@ -81,7 +81,7 @@ struct ObjectSchema {
 /// The document's root.
 const ObjectSchema& RootSchema();
 
-/// What stands under an extension's name or in `extras.fenestra`, for each kind of object.
+/// Schemas of the objects under an extension's name or in `extras.fenestra`.
 namespace schemas {
 const ObjectSchema& Empty();
 const ObjectSchema& Attributes();

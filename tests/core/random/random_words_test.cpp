@@ -1,4 +1,4 @@
-#include "core/random/random_words.h"
+#include "core/random/random_stream.h"
 
 #include <Random123/philox.h>
 #include <gtest/gtest.h>

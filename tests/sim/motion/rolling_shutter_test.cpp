@@ -7,7 +7,6 @@
 
 #include "core/io/input_error.h"
 #include "scenes/targets/flat_targets.h"
-#include "sim/motion/moving_rays.h"
 #include "sim/motion/rig_pose.h"
 #include "sim/structured_light/structured_light_sensor.h"
 

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "renderers/tracing/packet.h"
 #include "renderers/tracing/triangle_soup.h"
 
 namespace fenestra {
@@ -37,5 +38,24 @@ struct SharedCorners {
 };
 
 SharedCorners FindSharedCorners(const TriangleSoup& soup, const std::vector<uint32_t>& surfaces);
+
+/// The hemisphere about +z is divided into kHemisphereCells x kHemisphereCells compact cells of
+/// equal cosine-weighted solid angle.
+inline constexpr int kHemisphereCells = 24;
+
+/// Rays of a packet form a square of cells, or of parts of one cell.
+inline constexpr int kDirectionSquare = 4;
+static_assert(kDirectionSquare * kDirectionSquare == kLanes);
+static_assert(kHemisphereCells % kDirectionSquare == 0);
+
+/// Sixteen unit directions, row-major.
+using DirectionSquare = std::array<glm::vec3, kLanes>;
+
+struct HemisphereDirections {
+  std::vector<DirectionSquare> tiles;  ///< The centres of 4 x 4 cells each; row-major.
+  std::vector<DirectionSquare> cells;  ///< Sixteen directions inside each cell; row-major.
+};
+
+HemisphereDirections MakeHemisphereDirections();
 
 }  // namespace fenestra
