@@ -215,8 +215,11 @@ Json UntilSchema() {
 Json EnvelopeSchema() {
   const Json share = {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1}};
   const Json length = {{"type", "number"}, {"exclusiveMinimum", 0}};
-  Json require = Mapping(kRequirementKeys,
-                         {{"hit_rate", share}, {"p50_error_mm", length}, {"p95_error_mm", length}});
+  std::map<std::string, Json> demands;
+  for (const std::string& name : RequirementMetrics()) {
+    demands[name] = FindMetric(name)->IsShare() ? share : length;
+  }
+  Json require = Mapping(RequirementMetrics(), demands);
   require["minProperties"] = 1;
   return Mapping(kEnvelopeKeys,
                  {{"over", {{"enum", Factors().Names()}}},
