@@ -9,7 +9,7 @@
 namespace fenestra {
 namespace {
 
-MetricRow Hit(int trial, const Eigen::Vector3d& error_C) {
+MetricRow HitRow(int trial, const Eigen::Vector3d& error_C) {
   return {.outcome = Outcome::kHit,
           .has_target = true,
           .cluster = {.replicate = trial},
@@ -18,7 +18,7 @@ MetricRow Hit(int trial, const Eigen::Vector3d& error_C) {
 
 MetricTally Mixed(int hits, int misses) {
   MetricTally tally;
-  for (int i = 0; i < hits; ++i) tally.Add(Hit(i, {0, 0, 0.010}));
+  for (int i = 0; i < hits; ++i) tally.Add(HitRow(i, {0, 0, 0.010}));
   for (int i = 0; i < misses; ++i) {
     tally.Add(
         {.outcome = Outcome::kMissed, .has_target = true, .cluster = {.replicate = hits + i}});
@@ -61,7 +61,7 @@ MetricTally HeavyTailed(uint64_t run, int rows) {
   for (int i = 0; i < rows; ++i) {
     const RandomStream own = stream.Child("row", static_cast<uint64_t>(i));
     const double sigma_m = own.Uniform(3) < 0.02 ? 0.2 : 0.01;
-    tally.Add(Hit(i, sigma_m * Eigen::Vector3d(own.Normal(0), own.Normal(1), own.Normal(2))));
+    tally.Add(HitRow(i, sigma_m * Eigen::Vector3d(own.Normal(0), own.Normal(1), own.Normal(2))));
   }
   return tally;
 }
@@ -90,9 +90,9 @@ TEST(MetricLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
 
 TEST(MetricLimits, SayHowMuchOfAnRmseTheLargestRowHolds) {
   MetricTally tally;
-  for (int i = 0; i < 99; ++i) tally.Add(Hit(i, {0, 0, 0.010}));
+  for (int i = 0; i < 99; ++i) tally.Add(HitRow(i, {0, 0, 0.010}));
   EXPECT_NEAR(*Against(tally, "rmse_mm", 20.0, true).largest_share, 1.0 / 99.0, 1e-12);
-  tally.Add(Hit(99, {0, 0, 0.100}));  // 100 of 199 squares of 10 mm.
+  tally.Add(HitRow(99, {0, 0, 0.100}));  // 100 of 199 squares of 10 mm.
   EXPECT_NEAR(*Against(tally, "rmse_mm", 20.0, true).largest_share, 100.0 / 199.0, 1e-12);
   EXPECT_FALSE(Against(tally, "trimmed_rmse_mm", 20.0, true).largest_share.has_value());
 }

@@ -13,7 +13,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteValue = std::numeric_limits<double>::infinity();
 
 MetricRow Hit(int trial, const Eigen::Vector3d& error_C) {
   return {.outcome = Outcome::kHit,
@@ -96,9 +96,9 @@ TEST(MetricTally, AMissIsInfinitelyFarOff) {
   for (int i = 10; i < 20; ++i) tally.Add(Without(i, Outcome::kMissed));
   EXPECT_EQ(Of(tally, "p50_error_mm").of, 20);
   EXPECT_NEAR(Of(tally, "p50_error_mm").value, 19.0, 1e-9);
-  EXPECT_EQ(Of(tally, "p50_error_mm").interval->upper, kInfinity);
-  EXPECT_EQ(Of(tally, "p95_error_mm").value, kInfinity);
-  EXPECT_EQ(Of(tally, "p95_depth_mm").value, kInfinity);
+  EXPECT_EQ(Of(tally, "p50_error_mm").interval->upper, kInfiniteValue);
+  EXPECT_EQ(Of(tally, "p95_error_mm").value, kInfiniteValue);
+  EXPECT_EQ(Of(tally, "p95_depth_mm").value, kInfiniteValue);
   EXPECT_EQ(Of(tally, "bias_z_mm").of, 10);
   EXPECT_FALSE(Of(tally, "rmse_across_mm").interval.has_value());  // All are equal: 0.
 }
