@@ -19,7 +19,7 @@ target_include_directories(fenestra_options INTERFACE ${CMAKE_SOURCE_DIR})
 # those of the projects whose headers are in it, as well.
 target_compile_options(fenestra_options INTERFACE -fPIC)
 target_link_libraries(fenestra_options INTERFACE
-  Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json opencv_core opencv_imgproc)
+  Eigen3::Eigen fmt::fmt glm::glm nlohmann_json::nlohmann_json opencv_core opencv_imgproc yaml-cpp)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # A quarter of the compiler's time would go into collecting garbage of a process that soon ends.
   # ccache asks for the other one.
@@ -59,8 +59,9 @@ function(fenestra_precompile name optimisation)
   set_target_properties(fenestra_precompiled_${name} PROPERTIES optimisation ${optimisation})
 endfunction()
 fenestra_precompile(hot -O3)
-fenestra_precompile(cold -O1)
-fenestra_precompile(test -O1 <gmock/gmock.h> <gtest/gtest.h>)
+fenestra_precompile(cold -O1 <nlohmann/json.hpp>)
+fenestra_precompile(test -O1 <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp>)
+target_link_libraries(fenestra_precompiled_test PRIVATE GTest::gmock)
 # fenestra_compile(<target> <name>): as fenestra_precompile(<name> ...) says.
 function(fenestra_compile target name)
   get_target_property(optimisation fenestra_precompiled_${name} optimisation)

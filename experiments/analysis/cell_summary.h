@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "experiments/statistics/moments.h"
+#include "experiments/analysis/metric_tally.h"
 #include "experiments/trial/trial_record.h"
 
 namespace fenestra {
@@ -21,41 +21,6 @@ class OutcomeCounts {
   std::array<int, kAllOutcomes.size()> counts_{};
 };
 
-/// A share with its denominator, and the 95 % Clopper–Pearson interval of its probability.
-struct Proportion {
-  int count = 0;
-  int of = 0;
-  Interval interval95;
-
-  /// Domain: of ≥ 1.
-  double rate() const { return static_cast<double>(count) / of; }
-};
-
-Proportion MakeProportion(int count, int of);
-
-/// What the errors of unbiased estimates would be at least, by Cramér and Rao: √ of the mean over
-/// trials of the bound's trace, and of its parts. Metres.
-struct ErrorBounds {
-  double all = 0.0;
-  double depth = 0.0;
-  double across = 0.0;
-};
-
-/// Centroid errors over the hits of a cell. Frame C; metres.
-struct HitErrors {
-  Eigen::Vector3d bias;                                ///< Mean of estimate minus truth.
-  std::optional<Eigen::Vector3d> bias_standard_error;  ///< From two hits on.
-  double rmse = 0.0;                                   ///< √(mean of x² + y² + z²)
-  double rmse_depth = 0.0;                             ///< √(mean of z²)
-  double rmse_across = 0.0;                            ///< √(mean of x² + y²)
-  /// Over the same hits; nullopt unless all of them have a bound.
-  std::optional<ErrorBounds> bounds;
-
-  /// rmse and rmse_depth as multiples of their bounds.
-  std::optional<double> OverBound() const;
-  std::optional<double> DepthOverBound() const;
-};
-
 /// How often trials with this outcome gave this reason (see Score::reason).
 struct ReasonCount {
   Outcome outcome = Outcome::kMissed;
@@ -63,9 +28,11 @@ struct ReasonCount {
   int count = 0;
 };
 
+/// Median (SampleQuantile at 0.5) of a stage's time over the rows that have it.
 struct StageMedian {
   std::string stage;
   double median_s = 0.0;
+  Interval interval_s;  ///< QuantileInterval.
 };
 
 /// One cell under one detector, from its raw rows alone.
@@ -84,21 +51,25 @@ struct CellSummary {
   int in_view = 0;
   int without_target = 0;
   OutcomeCounts counts;
-  Proportion hits;                      ///< Of in_view.
-  Proportion false_alarms;              ///< Of without_target.
-  std::optional<HitErrors> hit_errors;  ///< From one hit on.
-  /// Quantiles of the three-dimensional centroid error over all in_view attempts; an attempt
-  /// without an estimate (missed, crashed) counts as +∞, so that declining the hard ones pays
-  /// nothing. nullopt for in_view = 0. See SampleQuantile.
-  std::optional<double> p50_error_m;
-  std::optional<double> p95_error_m;
+  /// Every named metric that the rows have, with its interval.
+  std::vector<NamedEstimate> metrics;
+  double confidence = 0.95;  ///< Of each interval; see RowContext::Confidence.
+  /// Over the hits; nullopt unless all of them have a bound.
+  std::optional<ErrorBounds> bounds;
   /// By outcome, then the most frequent first, then by name.
   std::vector<ReasonCount> reasons;
   int timed = 0;  ///< Rows with stage times that did not crash.
-  /// Medians (SampleQuantile at 0.5) over those of the timed rows that have the stage, in the
-  /// order of the detector's stages.
+  /// Over the timed rows, in the order of the detector's stages.
   std::vector<StageMedian> stage_medians;
-  std::optional<double> median_total_s;
+
+  /// nullptr or nullopt where the rows have no such metric.
+  const MetricEstimate* Find(std::string_view metric) const {
+    return fenestra::Find(metrics, metric);
+  }
+  std::optional<double> Value(std::string_view metric) const {
+    const MetricEstimate* estimate = Find(metric);
+    return estimate != nullptr ? std::optional(estimate->value) : std::nullopt;
+  }
 };
 
 }  // namespace fenestra

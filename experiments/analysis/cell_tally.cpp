@@ -7,32 +7,10 @@
 #include <tuple>
 
 #include "core/system/check.h"
+#include "experiments/statistics/intervals.h"
 
 namespace fenestra {
 namespace {
-
-std::optional<HitErrors> ErrorsOfHits(const std::vector<Eigen::Vector3d>& errors) {
-  if (errors.empty()) return std::nullopt;
-  std::array<std::vector<double>, 3> axes;
-  std::vector<double> across;
-  std::vector<double> all;
-  for (const Eigen::Vector3d& error : errors) {
-    for (int axis = 0; axis < 3; ++axis) axes[static_cast<size_t>(axis)].push_back(error[axis]);
-    across.push_back(error.head<2>().norm());
-    all.push_back(error.norm());
-  }
-  const auto& [x, y, z] = axes;
-  HitErrors result;
-  result.bias = {Mean(x), Mean(y), Mean(z)};
-  if (all.size() >= 2) {
-    result.bias_standard_error =
-        Eigen::Vector3d(StandardErrorOfMean(x), StandardErrorOfMean(y), StandardErrorOfMean(z));
-  }
-  result.rmse = RootMeanSquare(all);
-  result.rmse_depth = RootMeanSquare(z);
-  result.rmse_across = RootMeanSquare(across);
-  return result;
-}
 
 std::vector<ReasonCount> Sorted(const std::map<std::pair<Outcome, std::string>, int>& counts) {
   std::vector<ReasonCount> reasons;
@@ -45,13 +23,14 @@ std::vector<ReasonCount> Sorted(const std::map<std::pair<Outcome, std::string>, 
 
 }  // namespace
 
-void CellTally::Add(const TrialRecord& row) {
+void CellTally::Add(const TrialRecord& row, const RowContext& context) {
   if (counted_.trials == 0) {
     counted_.cell = row.cell;
     counted_.part = row.part;
     counted_.sensor = row.sensor;
     counted_.detector = row.detector;
     counted_.levels = row.levels;
+    counted_.confidence = context.Confidence(row.cell);
   }
   FENESTRA_CHECK(row.cell == counted_.cell && row.detector == counted_.detector &&
                      row.levels == counted_.levels && row.part == counted_.part,
@@ -64,33 +43,13 @@ void CellTally::Add(const TrialRecord& row) {
   if (row.score.IsAttempt()) ++counted_.in_view;
   if (!row.score.HasTarget()) ++counted_.without_target;
   if (!row.score.reason.empty()) ++reasons_[{row.score.outcome, row.score.reason}];
-  AddErrors(row);
+  metrics_.Add(context.Of(row));
   AddTimes(row);
 }
 
-void CellTally::AddErrors(const TrialRecord& row) {
-  if (row.score.IsAttempt()) attempt_errors_.push_back(row.score.CentroidErrorOrInfinity_m());
-  if (row.score.outcome != Outcome::kHit) return;
-  const auto error = row.score.CentroidError_C();
-  FENESTRA_CHECK(error.has_value(), "a hit without an error");
-  hit_errors_.push_back(*error);
-  if (!row.bound_C) return;
-  hit_bound_variances_ += row.bound_C->diagonal();
-  ++bounded_hits_;
-}
-
-std::optional<ErrorBounds> CellTally::BoundsOfHits() const {
-  if (bounded_hits_ < static_cast<int>(hit_errors_.size())) return std::nullopt;
-  const Eigen::Vector3d variances = hit_bound_variances_ / bounded_hits_;
-  return ErrorBounds{.all = std::sqrt(variances.sum()),
-                     .depth = std::sqrt(variances.z()),
-                     .across = std::sqrt(variances.head<2>().sum())};
-}
-
 void CellTally::AddTimes(const TrialRecord& row) {
-  const auto total = row.TotalSeconds();
-  if (row.score.outcome == Outcome::kCrashed || !total) return;
-  total_seconds_.push_back(*total);
+  if (row.score.outcome == Outcome::kCrashed || row.stages.empty()) return;
+  ++counted_.timed;
   for (const StageTime& stage : row.stages) {
     auto& samples = stage_seconds_[stage.stage];
     if (samples.empty()) stages_.push_back(stage.stage);
@@ -100,21 +59,17 @@ void CellTally::AddTimes(const TrialRecord& row) {
 
 CellSummary CellTally::Summary() const {
   CellSummary summary = counted_;
-  summary.hits = MakeProportion(summary.counts[Outcome::kHit], summary.in_view);
-  summary.false_alarms =
-      MakeProportion(summary.counts[Outcome::kFalseAlarm], summary.without_target);
-  summary.hit_errors = ErrorsOfHits(hit_errors_);
-  if (summary.hit_errors) summary.hit_errors->bounds = BoundsOfHits();
-  if (!attempt_errors_.empty()) {
-    summary.p50_error_m = SampleQuantile(attempt_errors_, 0.50);
-    summary.p95_error_m = SampleQuantile(attempt_errors_, 0.95);
-  }
+  summary.metrics = EstimatesOf(metrics_, summary.confidence);
+  summary.bounds = BoundsOfHits(metrics_.rows());
   summary.reasons = Sorted(reasons_);
   for (const std::string& stage : stages_) {
-    summary.stage_medians.push_back({stage, SampleQuantile(stage_seconds_.at(stage), 0.5)});
+    const std::vector<double>& seconds = stage_seconds_.at(stage);
+    const Interval interval = QuantileInterval(seconds, 0.5, summary.confidence);
+    summary.stage_medians.push_back(
+        {.stage = stage,
+         .median_s = SampleQuantile(seconds, 0.5),
+         .interval_s = {.lower = std::max(0.0, interval.lower), .upper = interval.upper}});
   }
-  summary.timed = static_cast<int>(total_seconds_.size());
-  if (!total_seconds_.empty()) summary.median_total_s = SampleQuantile(total_seconds_, 0.5);
   return summary;
 }
 
@@ -124,7 +79,7 @@ void Summariser::Add(const TrialRecord& row) {
     EndCell();
     cell_ = row.cell;
   }
-  tallies_[row.detector].Add(row);
+  tallies_[row.detector].Add(row, context_);
 }
 
 std::vector<CellSummary> Summariser::Finish() {
@@ -137,14 +92,14 @@ void Summariser::EndCell() {
   tallies_.clear();
 }
 
-std::vector<CellSummary> Summarise(std::span<const TrialRecord> records) {
+std::vector<CellSummary> Summarise(std::span<const TrialRecord> records, RowContext context) {
   std::vector<const TrialRecord*> rows;
   rows.reserve(records.size());
   for (const TrialRecord& record : records) rows.push_back(&record);
   std::sort(rows.begin(), rows.end(), [](const TrialRecord* a, const TrialRecord* b) {
     return std::tie(a->cell, a->trial) < std::tie(b->cell, b->trial);
   });
-  Summariser summariser;
+  Summariser summariser(std::move(context));
   for (const TrialRecord* row : rows) summariser.Add(*row);
   return summariser.Finish();
 }

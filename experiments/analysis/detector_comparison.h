@@ -56,9 +56,4 @@ class DetectorComparisons {
   std::map<int, CellTries> cells_;
 };
 
-/// One line for each comparison.
-std::string ComparisonCsv(std::span<const DetectorComparison> comparisons);
-/// A table for each part and sensor, with how to read it; empty without comparisons.
-std::string ComparisonMarkdown(std::span<const DetectorComparison> comparisons);
-
 }  // namespace fenestra

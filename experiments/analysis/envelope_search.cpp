@@ -8,7 +8,7 @@
 namespace fenestra {
 namespace {
 
-using Verdicts = std::span<const std::optional<RequirementVerdict>>;
+using Verdicts = std::span<const std::optional<Verdict>>;
 
 std::vector<size_t> TestedLevels(Verdicts verdicts) {
   std::vector<size_t> tested;
@@ -32,8 +32,8 @@ std::vector<size_t> FirstLevels(size_t levels) {
   return first;
 }
 
-bool Holds(const std::optional<RequirementVerdict>& verdict) {
-  return verdict == RequirementVerdict::kHolds;
+bool Holds(const std::optional<Verdict>& verdict) {
+  return verdict == Verdict::kHolds;
 }
 
 }  // namespace

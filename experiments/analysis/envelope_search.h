@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/analysis/requirement_count.h"
+#include "experiments/analysis/metric_limits.h"
 #include "experiments/study/study.h"
 
 namespace fenestra {
@@ -26,7 +26,7 @@ std::vector<LevelCurve> LevelCurves(const Study& study, std::span<const Cell> ce
 
 /// What the finished cells of a curve gave: per detector the verdict at each level, absent where
 /// the cell has not been run to its end.
-using CurveVerdicts = std::map<std::string, std::vector<std::optional<RequirementVerdict>>>;
+using CurveVerdicts = std::map<std::string, std::vector<std::optional<Verdict>>>;
 
 /// Which levels to run next, by index: first about a quarter of the range apart, both ends among
 /// them; then, wherever two neighbours of those that were run differ in whether the requirement
@@ -55,7 +55,7 @@ struct EnvelopeCurve {
 /// From how many levels on the first ones are spread.
 inline constexpr size_t kFirstIntervals = 4;
 
-std::vector<HoldingRange> HoldingRanges(
-    const LevelCurve& curve, std::span<const std::optional<RequirementVerdict>> verdicts);
+std::vector<HoldingRange> HoldingRanges(const LevelCurve& curve,
+                                        std::span<const std::optional<Verdict>> verdicts);
 
 }  // namespace fenestra

@@ -67,9 +67,4 @@ class ErrorBudgets {
   std::map<std::pair<int, std::string>, Errors> errors_;
 };
 
-/// One line for each coordinate and cause.
-std::string ErrorBudgetCsv(std::span<const ErrorBudget> budgets);
-/// A table for each cell and detector, with how to read it; empty without budgets.
-std::string ErrorBudgetMarkdown(std::span<const ErrorBudget> budgets);
-
 }  // namespace fenestra

@@ -1,56 +1,33 @@
 #include "experiments/analysis/requirement_count.h"
 
-#include "core/system/check.h"
-#include "experiments/statistics/moments.h"
-
 namespace fenestra {
 
-const char* ToString(RequirementVerdict verdict) {
-  switch (verdict) {
-    case RequirementVerdict::kHolds:
-      return "holds";
-    case RequirementVerdict::kFails:
-      return "fails";
-    case RequirementVerdict::kUndecided:
-      return "undecided";
-  }
-  FENESTRA_CHECK(false, "verdict out of range");
+void RequirementCount::Add(const MetricRow& row) {
+  tally_.Add(row);
+  attempts_ += row.IsAttempt() ? 1 : 0;
 }
 
-void RequirementCount::Add(const TrialRecord& row) {
-  ++trials_;
-  if (!row.score.IsAttempt()) return;
-  ++attempts_;
-  if (row.score.outcome == Outcome::kHit) ++good_[0];
-  const double error_mm = 1e3 * row.score.CentroidErrorOrInfinity_m();
-  const Requirement& require = rule_.require;
-  if (require.p50_error_mm && error_mm <= *require.p50_error_mm) ++good_[1];
-  if (require.p95_error_mm && error_mm <= *require.p95_error_mm) ++good_[2];
+std::optional<MetricLimits> RequirementCount::LimitsOf(const Demand& demand) const {
+  const Metric metric = FindMetric(demand.metric).value();
+  return fenestra::LimitsOf(tally_, {metric, demand.value, !metric.IsShare()});
 }
 
-std::array<RequirementCount::Demand, 3> RequirementCount::Demands() const {
-  const Requirement& require = rule_.require;
-  return {Demand{require.hit_rate, good_[0]}, Demand{require.p50_error_mm ? 0.50 : 0.0, good_[1]},
-          Demand{require.p95_error_mm ? 0.95 : 0.0, good_[2]}};
-}
-
-RequirementVerdict RequirementCount::verdict() const {
-  RequirementVerdict verdict = RequirementVerdict::kHolds;
-  for (const Demand& demand : Demands()) {
-    if (demand.share == 0.0) continue;
-    const Interval limits = OneSidedLimits(demand.good, attempts_, rule_.confidence);
-    if (limits.upper < demand.share) return RequirementVerdict::kFails;
-    if (limits.lower < demand.share) verdict = RequirementVerdict::kUndecided;
+Verdict RequirementCount::verdict() const {
+  Verdict verdict = Verdict::kHolds;
+  for (const Demand& demand : rule_.require) {
+    const auto limits = LimitsOf(demand);
+    if (limits && limits->IsViolated(1.0 - rule_.confidence)) return Verdict::kViolated;
+    if (!limits || !limits->Holds(rule_.confidence)) verdict = Verdict::kUndecided;
   }
   return verdict;
 }
 
 bool RequirementCount::CanHoldAfter(int further) const {
-  for (const Demand& demand : Demands()) {
-    if (demand.share == 0.0) continue;
-    const Interval best =
-        OneSidedLimits(demand.good + further, attempts_ + further, rule_.confidence);
-    if (best.lower < demand.share) return false;
+  for (const Demand& demand : rule_.require) {
+    const auto limits = LimitsOf(demand);
+    EffectiveCount best = limits ? *limits->share : EffectiveCount{0.0, 0.0, 0.0};
+    for (double* part : {&best.successes, &best.trials, &best.clusters}) *part += further;
+    if (LowerProportionLimit(best, rule_.confidence) < ShareOf(demand)) return false;
   }
   return true;
 }

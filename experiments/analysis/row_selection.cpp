@@ -116,8 +116,4 @@ bool RowSelection::Matches(const TrialRecord& row, std::span<const Condition> wh
                      [&](const Condition& condition) { return Matches(row, condition); });
 }
 
-std::pair<int, int> RowSelection::Cluster(const TrialRecord& row) const {
-  return {study_.independent_cells ? row.cell : -1, row.trial};
-}
-
 }  // namespace fenestra

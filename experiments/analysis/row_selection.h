@@ -33,13 +33,12 @@ class RowSelection {
 
   bool Matches(const TrialRecord& row, std::span<const Condition> where) const;
 
-  /// Rows with the same key share random numbers: those of a replicate, in all cells, or, with
-  /// independent cells, those of a trial.
-  std::pair<int, int> Cluster(const TrialRecord& row) const;
+  /// Of a factor, "detector", "part" or "sensor"; nullopt where the factor does not concern the
+  /// row.
+  std::optional<ParameterValue> ValueOf(const TrialRecord& row, const std::string& name) const;
 
  private:
   bool Matches(const TrialRecord& row, const Condition& condition) const;
-  std::optional<ParameterValue> ValueOf(const TrialRecord& row, const std::string& name) const;
 
   const Study& study_;
   std::span<const Cell> cells_;

@@ -10,23 +10,17 @@
 namespace fenestra {
 namespace {
 
-constexpr double kConfidence = 0.95;
 // How soon one of an envelope's cells may be given up.
 constexpr int kFirstEnvelopeLook = 10;
 
-// The widest interval of the figure's; infinite where one is missing.
-double WidthOf(StoppingFigure figure, std::span<const FigureEstimate> figures) {
-  const std::vector<std::string> names =
-      figure == StoppingFigure::kBias
-          ? std::vector<std::string>{"bias_x_mm", "bias_y_mm", "bias_z_mm"}
-          : std::vector<std::string>{ToString(figure)};
+// The widest interval of the metrics that a target names; infinite where one is missing.
+double WidthOf(const std::string& target, const MetricTally& tally, double confidence) {
   double widest = 0.0;
-  for (const std::string& name : names) {
-    const auto found = std::find_if(figures.begin(), figures.end(),
-                                    [&name](const auto& f) { return f.figure == name; });
-    if (found == figures.end() || !found->interval) return std::numeric_limits<double>::infinity();
+  for (const std::string& name : MetricsOfTarget(target)) {
+    const auto estimate = tally.Estimate(FindMetric(name).value(), confidence);
+    if (!estimate || !estimate->interval) return std::numeric_limits<double>::infinity();
     // From infinity to infinity there is nothing left to narrow, but nothing is known either.
-    const double width = found->interval->upper - found->interval->lower;
+    const double width = estimate->interval->upper - estimate->interval->lower;
     if (std::isnan(width)) return std::numeric_limits<double>::infinity();
     widest = std::max(widest, width);
   }
@@ -41,19 +35,14 @@ std::vector<int> LooksOf(const StudyPart& part) {
 
 }  // namespace
 
-bool IsNarrowEnough(const StoppingRule& rule, std::span<const FigureEstimate> figures) {
-  return std::all_of(rule.targets.begin(), rule.targets.end(), [figures](const auto& target) {
-    return WidthOf(target.figure, figures) <= target.width;
+bool IsNarrowEnough(const StoppingRule& rule, const MetricTally& tally, double confidence) {
+  return std::all_of(rule.targets.begin(), rule.targets.end(), [&](const auto& target) {
+    return WidthOf(target.metric, tally, confidence) <= target.width;
   });
 }
 
-double SummaryConfidence(const Study& study, const Cell& cell) {
-  const auto& until = study.parts[cell.part_index].until;
-  return until ? LookConfidence(kConfidence, until->CountLooks(cell.repetitions)) : kConfidence;
-}
-
 TrialPlan::TrialPlan(const Study& study, std::span<const Cell> cells)
-    : study_(study), cells_(cells), curves_(LevelCurves(study, cells)) {
+    : study_(study), cells_(cells), context_(study, cells), curves_(LevelCurves(study, cells)) {
   for (const Cell& cell : cells) {
     CellState state;
     state.looks = LooksOf(study.parts[cell.part_index]);
@@ -80,18 +69,18 @@ void TrialPlan::Add(const TrialRecord& row) {
   }
   if (row.trial + 1 != state.complete) return;  // Trials before it are missing.
   const StudyPart& part = study_.parts[cells_[index].part_index];
-  if (part.until) state.tallies[row.detector].Add(row);
+  if (part.until) state.tallies[row.detector].Add(context_.Of(row));
   if (part.envelope) {
-    state.counts.try_emplace(row.detector, *part.envelope).first->second.Add(row);
+    state.counts.try_emplace(row.detector, *part.envelope).first->second.Add(context_.Of(row));
   }
 }
 
 bool TrialPlan::MayEnd(const Cell& cell, const CellState& state) const {
   const StudyPart& part = study_.parts[cell.part_index];
   if (part.until) {
-    const double confidence = SummaryConfidence(study_, cell);
+    const double confidence = context_.Confidence(cell.index);
     return std::all_of(state.tallies.begin(), state.tallies.end(), [&](const auto& entry) {
-      return IsNarrowEnough(*part.until, entry.second.Figures(confidence));
+      return IsNarrowEnough(*part.until, entry.second, confidence);
     });
   }
   const int further = cell.repetitions - state.complete;

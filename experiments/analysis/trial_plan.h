@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "experiments/analysis/envelope_search.h"
-#include "experiments/analysis/figure_tally.h"
+#include "experiments/analysis/metric_tally.h"
+#include "experiments/analysis/requirement_count.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/trial_record.h"
 
@@ -44,7 +45,7 @@ class TrialPlan {
     bool ended = false;  ///< Wants no more trials.
     int complete = 0;    ///< Number of trials that are stored without a gap, from the first one on.
     std::vector<bool> stored;
-    std::map<std::string, FigureTally> tallies;      ///< Where a rule stops the cell.
+    std::map<std::string, MetricTally> tallies;      ///< Where a rule stops the cell.
     std::map<std::string, RequirementCount> counts;  ///< Where an envelope is looked for.
   };
 
@@ -59,16 +60,14 @@ class TrialPlan {
 
   const Study& study_;
   std::span<const Cell> cells_;
+  RowContext context_;
   std::vector<CellState> states_;
   std::vector<LevelCurve> curves_;
   int64_t most_trials_ = 0;
 };
 
-/// Whether every width that the rule asks for is met; a figure that does not exist meets none.
-bool IsNarrowEnough(const StoppingRule& rule, std::span<const FigureEstimate> figures);
-
-/// The confidence that the intervals of a cell's summary must have so that 95 % is true of them
-/// when the cell may have stopped early: LookConfidence(0.95, its looks).
-double SummaryConfidence(const Study& study, const Cell& cell);
+/// Whether every width that the rule asks for is met, by intervals with this confidence; a metric
+/// that does not exist meets none.
+bool IsNarrowEnough(const StoppingRule& rule, const MetricTally& tally, double confidence);
 
 }  // namespace fenestra

@@ -31,20 +31,10 @@ struct Task {
   std::vector<SelectedRow> rows;
 };
 
-bool Holds(const Estimation& e, double confidence, double growth) {
-  return e.is_upper ? e.upper(confidence, growth) <= e.limit
-                    : e.lower(confidence, growth) >= e.limit;
-}
-
-bool Violated(const Estimation& e, double level, double growth) {
-  return e.is_upper ? e.lower(1.0 - level, growth) > e.limit
-                    : e.upper(1.0 - level, growth) < e.limit;
-}
-
 // The least growth of the number of replicates that decides, by doubling and bisection.
-std::optional<long> ReplicatesToDecide(const Estimation& e, double confidence, double level) {
+std::optional<long> ReplicatesToDecide(const MetricLimits& e, double confidence, double level) {
   const auto decided = [&](double growth) {
-    return Holds(e, confidence, growth) || Violated(e, level, growth);
+    return e.Holds(confidence, growth) || e.IsViolated(level, growth);
   };
   const double most = kMostReplicates / std::max(1, e.clusters);
   double high = 2.0;
@@ -66,18 +56,21 @@ BoundResult Judge(const Task& task, double level) {
                      .confidence = task.bound.confidence};
   const auto estimation = Estimate(task.bound, task.rows);
   if (!estimation) {
-    result.note = "no row counts for this figure";
+    result.note = "no row counts for this metric";
     return result;
   }
   result.measured = estimation->shown;
+  result.interval = estimation->interval;
   result.rows = estimation->rows;
-  result.clusters = estimation->clusters;
-  if (Holds(*estimation, task.bound.confidence, 1.0)) {
+  result.clusters = estimation->limits.clusters;
+  result.note = estimation->warning;
+  if (estimation->limits.Holds(task.bound.confidence)) {
     result.verdict = Verdict::kHolds;
-  } else if (Violated(*estimation, level, 1.0)) {
+  } else if (estimation->limits.IsViolated(level)) {
     result.verdict = Verdict::kViolated;
   } else {
-    result.replicates_to_decide = ReplicatesToDecide(*estimation, task.bound.confidence, level);
+    result.replicates_to_decide =
+        ReplicatesToDecide(estimation->limits, task.bound.confidence, level);
   }
   return result;
 }
@@ -90,6 +83,7 @@ BoundResult RegressionResult(const std::string& text, const PairedTests& tests, 
                      .confidence = kRegressionConfidence};
   const auto estimation = Estimate(bound, rows);
   result.measured = estimation ? estimation->shown : kAbsent;
+  if (estimation) result.interval = estimation->interval;
   result.note = tests.changed == 0 ? "the same in every trial"
                                    : fmt::format("p = {:.2g}, {} of {} trials changed", p,
                                                  tests.changed, tests.pairs);
@@ -97,10 +91,11 @@ BoundResult RegressionResult(const std::string& text, const PairedTests& tests, 
     result.verdict = Verdict::kViolated;
   } else if (tests.pairs > 0 && tests.changed == 0) {
     result.verdict = Verdict::kHolds;
-  } else if (estimation && Holds(*estimation, kRegressionConfidence, 1.0)) {
+  } else if (estimation && estimation->limits.Holds(kRegressionConfidence)) {
     result.verdict = Verdict::kHolds;
   } else if (estimation) {
-    result.replicates_to_decide = ReplicatesToDecide(*estimation, kRegressionConfidence, level);
+    result.replicates_to_decide =
+        ReplicatesToDecide(estimation->limits, kRegressionConfidence, level);
   }
   return result;
 }
@@ -109,10 +104,14 @@ void AddRegressions(const std::map<std::string, std::vector<SelectedRow>>& by_de
                     double level, CheckResult& result) {
   for (const auto& [detector, rows] : by_detector) {
     const PairedTests tests = ComparePairs(rows);
-    Bound errors{.is_upper = true, .limit = kToleratedRatio, .to_baseline = true};
-    errors.figure.kind = Figure::Kind::kRmse;
-    Bound hits{.is_upper = false, .limit = -kToleratedLoss, .to_baseline = true};
-    hits.figure.kind = Figure::Kind::kRate;
+    const Bound errors{.metric = {.kind = Metric::Kind::kRmse},
+                       .is_upper = true,
+                       .limit = kToleratedRatio,
+                       .to_baseline = true};
+    const Bound hits{.metric = {.kind = Metric::Kind::kRate},
+                     .is_upper = false,
+                     .limit = -kToleratedLoss,
+                     .to_baseline = true};
     result.bounds.push_back(
         RegressionResult(fmt::format("errors no larger than in the baseline: {}", detector), tests,
                          tests.p_errors_grew, level, errors, rows));
@@ -155,14 +154,14 @@ void CheckConditions(const std::string& source, std::span<const Bound> bounds,
   faults.ThrowIfAny();
 }
 
-std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& selection,
+std::vector<SelectedRow> Pair(const std::string& source, const RowContext& context,
                               std::span<const TrialRecord> rows,
                               std::span<const TrialRecord> baseline) {
   std::map<std::tuple<int, int, std::string>, const TrialRecord*> before;
   for (const TrialRecord& row : baseline) before[{row.cell, row.trial, row.detector}] = &row;
   std::vector<SelectedRow> selected;
   for (const TrialRecord& row : rows) {
-    SelectedRow pair{&row, selection.Cluster(row), nullptr};
+    SelectedRow pair{.row = &row, .now = context.Of(row)};
     if (!baseline.empty()) {
       const auto found = before.find({row.cell, row.trial, row.detector});
       if (found == before.end() || found->second->levels != row.levels ||
@@ -172,7 +171,8 @@ std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& sel
                                      "not of the same study, seed and number of trials",
                                      row.cell, row.trial, row.detector));
       }
-      pair.baseline = found->second;
+      pair.baseline_row = found->second;
+      pair.before = context.Of(*found->second);
     }
     selected.push_back(pair);
   }
@@ -180,18 +180,6 @@ std::vector<SelectedRow> Pair(const std::string& source, const RowSelection& sel
 }
 
 }  // namespace
-
-const char* ToString(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kHolds:
-      return "holds";
-    case Verdict::kViolated:
-      return "VIOLATED";
-    case Verdict::kUndecided:
-      return "undecided";
-  }
-  return "";
-}
 
 int CheckResult::Count(Verdict verdict) const {
   return static_cast<int>(std::count_if(bounds.begin(), bounds.end(),
@@ -203,7 +191,8 @@ CheckResult CheckBounds(const std::string& source, const BoundFile& file, const 
   const std::vector<Cell> cells = Cells(study);
   const RowSelection selection(study, cells);
   CheckConditions(source, file.bounds, selection);
-  const std::vector<SelectedRow> selected = Pair("--baseline", selection, rows, baseline);
+  const std::vector<SelectedRow> selected =
+      Pair("--baseline", RowContext(study, cells), rows, baseline);
   Faults faults(source);
   std::vector<Task> tasks;
   for (const Bound& bound : file.bounds) {

@@ -5,16 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "experiments/analysis/metric_limits.h"
 #include "experiments/check/bound_file.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/trial_record.h"
 
 namespace fenestra {
-
-enum class Verdict { kHolds, kViolated, kUndecided };
-
-/// "holds", "VIOLATED", "undecided".
-const char* ToString(Verdict verdict);
 
 /// One bound held against the rows, or the same in one cell.
 struct BoundResult {
@@ -22,9 +18,10 @@ struct BoundResult {
   int line = 0;        ///< In its file; 0 if it stands in none.
   std::string cell{};  ///< "distance_m = 3" of a bound in each cell; else empty.
   Verdict verdict = Verdict::kUndecided;
-  std::string measured{};   ///< The figure with its unit; "—" where there is none.
-  int rows = 0;             ///< That count for the figure.
-  int clusters = 0;         ///< Of them independent: see RowSelection::Cluster.
+  std::string measured{};   ///< The metric with its unit; "—" where there is none.
+  std::string interval{};   ///< Two-sided, with 95 %; empty where there is none.
+  int rows = 0;             ///< That count for the metric.
+  int clusters = 0;         ///< Independent witnesses among them: see ClusterKey.
   double confidence = 0.0;  ///< Of "holds".
   /// Replicates that would decide if the rows went on as they are; nullopt if decided, or if no
   /// number below 10^7 would.
@@ -44,7 +41,7 @@ struct CheckResult {
 
 /// How rows are held against bounds:
 ///
-///   holds       the limited figure's one-sided confidence limit, at the bound's confidence, is
+///   holds       the limited number's one-sided confidence limit, at the bound's confidence, is
 ///               within the limit
 ///   violated    its opposite confidence limit, at confidence 1 - test_level, is beyond
 ///   undecided   neither

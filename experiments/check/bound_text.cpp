@@ -56,7 +56,7 @@ class Parser {
   }
 
   Bound Parse() {
-    ReadFigure();
+    ReadMetric();
     ReadLimit();
     while (at_ < tokens_.size()) {
       const std::string word = Next("with, in or where");
@@ -115,35 +115,37 @@ class Parser {
     return *number;
   }
 
-  void ReadFigure() {
-    const std::string statistic = Next("a figure such as p95(centroid_error_mm)");
-    Figure& figure = bound_.figure;
-    if (statistic == "rate") {
-      figure.kind = Figure::Kind::kRate;
-    } else if (statistic == "rmse") {
-      figure.kind = Figure::Kind::kRmse;
-    } else if (statistic == "bias") {
-      figure.kind = Figure::Kind::kBias;
-    } else if (statistic == "median") {
-      figure.kind = Figure::Kind::kQuantile;
-      figure.level = 0.5;
-    } else {
-      const auto percent =
-          statistic.starts_with("p") ? ToNumber(statistic.substr(1)) : std::nullopt;
-      if (!percent || !(*percent > 0.0 && *percent < 100.0)) {
-        Unexpected(statistic, "rate, median, rmse, bias or a quantile such as p95");
-      }
-      figure.kind = Figure::Kind::kQuantile;
-      figure.level = *percent / 100.0;
+  void ReadMetric() {
+    const std::string statistic = Next("a metric such as p95(centroid_error_mm)");
+    if (const auto named = FindMetric(statistic)) {
+      bound_.metric = *named;
+      return;
     }
+    bound_.metric = MetricOf(statistic);
     Expect("(");
-    const std::string of = Next("what the figure is of");
-    if (figure.kind == Figure::Kind::kRate) {
+    const std::string of = Next("what the metric is of");
+    if (bound_.metric.kind == Metric::Kind::kRate) {
       ReadOutcome(of);
     } else {
       ReadQuantity(of);
     }
     Expect(")");
+  }
+
+  // Of a statistic, without what it is of.
+  static Metric MetricOf(const std::string& statistic) {
+    if (statistic == "rate") return {.kind = Metric::Kind::kRate};
+    if (statistic == "rmse") return {.kind = Metric::Kind::kRmse};
+    if (statistic == "trimmed_rmse") return {.kind = Metric::Kind::kTrimmedRmse};
+    if (statistic == "bias") return {.kind = Metric::Kind::kBias};
+    if (statistic == "median") return {.kind = Metric::Kind::kQuantile, .level = 0.5};
+    const auto percent = statistic.starts_with("p") ? ToNumber(statistic.substr(1)) : std::nullopt;
+    if (!percent || !(*percent > 0.0 && *percent < 100.0)) {
+      Unexpected(statistic,
+                 "rate, median, rmse, trimmed_rmse, bias, a quantile such as p95, or the name of a "
+                 "metric");
+    }
+    return {.kind = Metric::Kind::kQuantile, .level = *percent / 100.0};
   }
 
   void ReadOutcome(const std::string& word) {
@@ -155,7 +157,7 @@ class Parser {
       }
       Unexpected(word, fmt::format("an outcome ({})", fmt::join(names, ", ")));
     }
-    bound_.figure.outcome = *outcome;
+    bound_.metric.outcome = *outcome;
   }
 
   void ReadQuantity(const std::string& word) {
@@ -163,7 +165,7 @@ class Parser {
     for (const Quantity known : AllQuantities()) {
       names.emplace_back(ToString(known));
       if (word != names.back()) continue;
-      bound_.figure.quantity = known;
+      bound_.metric.quantity = known;
       return;
     }
     Unexpected(word, fmt::format("a quantity ({})", fmt::join(names, ", ")));
@@ -173,7 +175,7 @@ class Parser {
     const std::string comparison = Next("<= or >=");
     if (comparison != "<=" && comparison != ">=") Unexpected(comparison, "<= or >=");
     bound_.is_upper = comparison == "<=";
-    const bool rate = bound_.figure.kind == Figure::Kind::kRate;
+    const bool rate = bound_.metric.IsShare();
     if (TakeIf("baseline")) {
       if (!rate) throw BoundTextError("only a rate is held against 'baseline + number'");
       bound_.to_baseline = true;
@@ -188,14 +190,14 @@ class Parser {
     bound_.limit = ReadNumber("a limit");
     if (TakeIf("times")) {
       Expect("baseline");
-      if (bound_.figure.kind != Figure::Kind::kRmse) {
+      if (bound_.metric.kind != Metric::Kind::kRmse) {
         throw BoundTextError("only an rmse is held against 'number times baseline'");
       }
       bound_.to_baseline = true;
       CheckLimit(1e-6, 1e6, "a ratio");
     } else if (rate) {
       CheckLimit(0.0, 1.0, "a rate");
-    } else if (bound_.figure.kind != Figure::Kind::kBias) {
+    } else if (bound_.metric.kind != Metric::Kind::kBias) {
       CheckLimit(0.0, 1e9, "such a limit");
     }
   }
@@ -276,31 +278,6 @@ class Parser {
 };
 
 }  // namespace
-
-const std::vector<Quantity>& AllQuantities() {
-  static const std::vector<Quantity> all = {Quantity::kError,       Quantity::kErrorX,
-                                            Quantity::kErrorY,      Quantity::kErrorZ,
-                                            Quantity::kErrorAcross, Quantity::kTime};
-  return all;
-}
-
-const char* ToString(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::kError:
-      return "centroid_error_mm";
-    case Quantity::kErrorX:
-      return "centroid_error_x_mm";
-    case Quantity::kErrorY:
-      return "centroid_error_y_mm";
-    case Quantity::kErrorZ:
-      return "centroid_error_z_mm";
-    case Quantity::kErrorAcross:
-      return "centroid_error_across_mm";
-    case Quantity::kTime:
-      return "time_ms";
-  }
-  return "";
-}
 
 Bound ParseBound(const std::string& text, double default_confidence) {
   return Parser(text, default_confidence).Parse();

@@ -14,10 +14,10 @@ class BoundTextError : public std::runtime_error {
 
 /// Reads a bound:
 ///
-///     bound     = figure ("<=" | ">=") limit ["with" "confidence" number] ["in" "each" "cell"]
+///     bound     = metric ("<=" | ">=") limit ["with" "confidence" number] ["in" "each" "cell"]
 ///                 ["where" condition {"and" condition}]
-///     figure    = "rate" "(" outcome ")" | statistic "(" quantity ")"
-///     statistic = "p50" ... "p99.9" | "median" | "rmse" | "bias"
+///     metric    = "rate" "(" outcome ")" | statistic "(" quantity ")" | name (see Metrics)
+///     statistic = "p50" ... "p99.9" | "median" | "rmse" | "trimmed_rmse" | "bias"
 ///     limit     = number | number "times" "baseline" | "baseline" [("+" | "-") number]
 ///     condition = name ("=" | "!=" | "<" | "<=" | ">" | ">=") value
 ///               | name "in" "[" value {"," value} "]"

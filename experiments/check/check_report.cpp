@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"
 
 namespace fenestra {
@@ -28,13 +29,15 @@ TextTable TableOf(const CheckResult& result, std::optional<bool> holding) {
   table.AddColumn("verdict", TextTable::Align::kLeft);
   table.AddColumn("bound", TextTable::Align::kLeft);
   table.AddColumn("measured", TextTable::Align::kLeft);
+  table.AddColumn("95 % interval", TextTable::Align::kLeft);
   table.AddColumn("n");
   table.AddColumn("remark", TextTable::Align::kLeft);
   for (const BoundResult& bound : result.bounds) {
     const bool holds = bound.verdict == Verdict::kHolds;
     if (holding && *holding != holds) continue;
     table.AddRow({ToString(bound.verdict), Subject(bound), bound.measured,
-                  std::to_string(bound.rows), Remark(bound)});
+                  bound.interval.empty() ? kAbsent : bound.interval, std::to_string(bound.rows),
+                  Remark(bound)});
   }
   return table;
 }

@@ -1,42 +1,37 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
-#include <utility>
 
+#include "experiments/analysis/metric_limits.h"
 #include "experiments/check/bound.h"
 
 namespace fenestra {
 
-/// A row that a bound speaks of, and the cluster that it belongs to (see RowSelection::Cluster).
+/// A row that a bound speaks of, and the same trial in the baseline.
 struct SelectedRow {
   const TrialRecord* row;
-  std::pair<int, int> cluster;
-  const TrialRecord* baseline = nullptr;  ///< The same trial in the baseline.
+  MetricRow now;
+  const TrialRecord* baseline_row = nullptr;
+  std::optional<MetricRow> before{};
 };
 
 /// What rows tell of the number that a bound limits.
 struct Estimation {
-  double estimate = 0.0;
-  int rows = 0;
-  int clusters = 0;
-  std::string shown{};  ///< The estimate for people, with its unit.
-  /// One-sided limits at a confidence, from `growth` times the rows with the same scatter.
-  std::function<double(double confidence, double growth)> lower{};
-  std::function<double(double confidence, double growth)> upper{};
-  /// The limited number may be a share where the bound names a quantile: p95 ≤ 15 says that the
-  /// share of what is within 15 is at least 0.95. The limit and its sense, translated:
-  double limit = 0.0;
-  bool is_upper = true;
+  MetricLimits limits;
+  int rows = 0;            ///< That count.
+  std::string shown{};     ///< The estimate for people, with its unit.
+  std::string interval{};  ///< With 95 %; empty where there is none.
+  std::string warning{};   ///< Why "holds" may not be true; empty as a rule.
 };
 
-/// Rates and quantiles by Clopper–Pearson limits of shares, exact where each cluster is one row;
-/// biases by Student's t; an rmse by Student's t on the logarithm of the mean square, to first
-/// order; ratios of rmse likewise, on pairs that both hit; differences of rates by the limits of
-/// what became better and what became worse, each with half of the error. All allow for clusters.
+/// By MetricTally and LimitsOf. Against a baseline: ratios of rmse by Student's t on the logarithm
+/// of the ratio of mean squares, to first order, on pairs that both hit; differences of rates by
+/// the limits of what became better and what became worse, each with half of the error. All allow
+/// for clusters.
 ///
-/// nullopt with no row that counts (no attempt, no hit); see Figure.
+/// nullopt with no row that counts (no attempt, no hit).
 std::optional<Estimation> Estimate(const Bound& bound, std::span<const SelectedRow> rows);
 
 }  // namespace fenestra

@@ -13,19 +13,18 @@ namespace {
 
 constexpr double kMissDistance_m = std::numeric_limits<double>::infinity();
 
-double ErrorOf(const TrialRecord& row) {
-  const auto error_C = row.score.CentroidError_C();
-  return error_C ? error_C->norm() : kMissDistance_m;
+double ErrorOf(const MetricRow& row) {
+  return row.error_C ? row.error_C->norm() : kMissDistance_m;
 }
 
 struct Difference {
-  std::pair<int, int> cluster;
+  ClusterKey cluster;
   double error = 0.0;  ///< Now less before, ±∞ included; 0 with both infinite.
 };
 
 // Average ranks of |difference| over n, with the differences' signs; 0 for no difference.
 void AddSignedRanks(std::vector<Difference> cell,
-                    std::map<std::pair<int, int>, std::pair<double, int>>& sums) {
+                    std::map<ClusterKey, std::pair<double, int>>& sums) {
   std::sort(cell.begin(), cell.end(), [](const Difference& a, const Difference& b) {
     return std::abs(a.error) < std::abs(b.error);
   });
@@ -45,7 +44,7 @@ void AddSignedRanks(std::vector<Difference> cell,
 }
 
 bool IsPairOfAttempts(const SelectedRow& row) {
-  return row.row->score.IsAttempt() && row.baseline->score.IsAttempt();
+  return row.now.is_independent && row.now.IsAttempt() && row.before->IsAttempt();
 }
 
 }  // namespace
@@ -53,21 +52,21 @@ bool IsPairOfAttempts(const SelectedRow& row) {
 PairedTests ComparePairs(std::span<const SelectedRow> rows) {
   PairedTests tests;
   std::map<int, std::vector<Difference>> cells;
-  std::map<std::pair<int, int>, double> lost;
+  std::map<ClusterKey, double> lost;
   for (const SelectedRow& row : rows) {
     if (!IsPairOfAttempts(row)) continue;
     ++tests.pairs;
-    const double now = ErrorOf(*row.row);
-    const double before = ErrorOf(*row.baseline);
+    const double now = ErrorOf(row.now);
+    const double before = ErrorOf(*row.before);
     const bool both_infinite = std::isinf(now) && std::isinf(before);
-    cells[row.row->cell].push_back({row.cluster, both_infinite ? 0.0 : now - before});
+    cells[row.row->cell].push_back({row.now.cluster, both_infinite ? 0.0 : now - before});
     tests.changed += now != before ? 1 : 0;
-    const int hit = row.row->score.outcome == Outcome::kHit ? 1 : 0;
-    const int hit_before = row.baseline->score.outcome == Outcome::kHit ? 1 : 0;
-    lost[row.cluster] += hit_before - hit;
+    const int hit = row.now.outcome == Outcome::kHit ? 1 : 0;
+    const int hit_before = row.before->outcome == Outcome::kHit ? 1 : 0;
+    lost[row.now.cluster] += hit_before - hit;
   }
   tests.clusters = static_cast<int>(lost.size());
-  std::map<std::pair<int, int>, std::pair<double, int>> ranks;
+  std::map<ClusterKey, std::pair<double, int>> ranks;
   for (auto& [cell, differences] : cells) AddSignedRanks(std::move(differences), ranks);
   std::vector<double> of_errors;
   for (const auto& [cluster, sum] : ranks) of_errors.push_back(sum.first / sum.second);

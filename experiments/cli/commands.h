@@ -21,6 +21,7 @@ void AddDepthCommand(Command program);
 void AddScoreCommand(Command program);
 void AddServeCommand(Command program);
 void AddRatiosCommand(Command program);
+void AddPoolCommand(Command program);
 void AddFixturesCommand(Command program);
 void AddListCommand(Command program);
 void AddStudyCommand(Command program);

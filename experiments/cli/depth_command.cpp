@@ -5,7 +5,8 @@
 #include "core/io/image_io.h"
 #include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
-#include "experiments/depth_curves/depth_curves.h"
+#include "experiments/depth_curves/depth_curves_report.h"
+#include "experiments/depth_curves/depth_curves_picture.h"
 
 namespace fenestra::cli {
 

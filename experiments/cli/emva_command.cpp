@@ -8,6 +8,7 @@
 #include "core/io/input_error.h"
 #include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
+#include "experiments/emva/photon_transfer_picture.h"
 #include "experiments/emva/report.h"
 #include "experiments/study/factors.h"
 #include "sim/camera/spectral_response.h"

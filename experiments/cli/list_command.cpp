@@ -3,6 +3,7 @@
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/study/factors.h"
+#include "experiments/study/metric.h"
 #include "experiments/study_file/study_catalogue.h"
 #include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
@@ -43,10 +44,16 @@ void ListStudies() {
   }
 }
 
+void ListMetrics() {
+  for (const NamedMetric& metric : Metrics()) {
+    fmt::print("{:<30} of {}\n", metric.name, ToString(RowsOf(metric.metric)));
+  }
+}
+
 }  // namespace
 
 void AddListCommand(Command program) {
-  Command list = program.AddCommand("list", "Shows detectors, factors or studies");
+  Command list = program.AddCommand("list", "Shows detectors, factors, metrics or studies");
   list.Footer(
       "Example:\n"
       "  fenestra list factors | grep window");
@@ -61,6 +68,10 @@ void AddListCommand(Command program) {
   });
   list.AddCommand("factors", "All that a study can vary, with defaults").Action([] {
     PrintParameters(Factors().infos(), "");
+    return kDone;
+  });
+  list.AddCommand("metrics", "All that is told of rows, with what each is taken over").Action([] {
+    ListMetrics();
     return kDone;
   });
   list.AddCommand("studies", "The studies that come with the program").Action([] {

@@ -51,6 +51,7 @@ int Main(int argc, char** argv) {
   AddScoreCommand(program);
   AddServeCommand(program);
   AddRatiosCommand(program);
+  AddPoolCommand(program);
   AddFixturesCommand(program);
   AddStudyCommand(program);
   AddListCommand(program);

@@ -18,14 +18,14 @@ class Progress {
  public:
   struct Options {
     bool terminal = false;
-    int columns = 80;  ///< Of the terminal.
-    /// Between plain lines; quicker runs print none.
+    int columns = 80;  ///< Width of the terminal.
+    /// Time between plain lines; quicker runs print none.
     double line_interval_s = 30.0;
     std::function<double()> seconds;  ///< A clock that never goes back.
     std::function<void(const std::string&)> write;
   };
 
-  /// To standard error, as it is.
+  /// For standard error, terminal or not.
   static Options ForStandardError();
 
   explicit Progress(Options options) : options_(std::move(options)) {}

@@ -74,8 +74,11 @@ void AddRatiosCommand(Command program) {
   command.AddOption("RESULTS", *results, "Results folder or its results.sqlite").Required();
   command.AddOption("--factor", *factor, "A factor with levels").Required();
   command.Action([results, factor] {
-    const std::vector<TrialRecord> rows = ResultStore::OpenReadOnly(StoreFile(*results)).Rows();
-    fmt::print("{}", PairedRatioTable(PairsBy(rows, *factor), *factor, RandomStream(1)));
+    const std::filesystem::path file = StoreFile(*results);
+    const ResultStore store = ResultStore::OpenReadOnly(file);
+    const std::vector<TrialRecord> rows = store.Rows();
+    const std::vector<PairedCells> pairs = PairsBy(rows, *factor, ContextOf(store, file));
+    fmt::print("{}", PairedRatioTable(pairs, *factor, RandomStream(1)));
     return kDone;
   });
 }

@@ -13,7 +13,6 @@
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/study_run_arguments.h"
 #include "experiments/run/shards.h"
-#include "experiments/run/slurm_scripts.h"
 #include "experiments/study_file/study_catalogue.h"
 
 namespace fenestra::cli {

@@ -11,7 +11,7 @@
 
 namespace fenestra::cli {
 
-/// What a user may say of any run of a study, whichever command starts it.
+/// The options of any run of a study, whichever command starts it.
 struct StudyRunArguments {
   std::filesystem::path out = {};
   int jobs = 0;  ///< 0: as many as there are processors.
@@ -28,7 +28,7 @@ Option AddSeedOption(Command command, std::optional<uint64_t>& seed);
 Option AddJobsOption(Command command, int& jobs);
 /// As many as there are processors for 0.
 int JobsOrAll(int jobs);
-/// All of these and --out. Returns all that make no sense without a run.
+/// All of these and --out. Returns those that have no effect without a run.
 std::vector<Option> AddStudyRunOptions(Command command, StudyRunArguments& arguments);
 
 /// Loads the plugins and reads the study. Throws InputError.
@@ -37,7 +37,7 @@ StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArg
 /// Shows the progress on standard error; Ctrl-C ends the run with what is done stored.
 StudyResult RunWithProgress(StudyRun run);
 
-/// The tables of a result, what its detectors were told beforehand, and where its files are.
+/// Prints the tables of a result, the prior knowledge of its detectors, and where its files are.
 void PrintResult(const std::vector<CellSummary>& summaries, const std::filesystem::path& folder);
 
 }  // namespace fenestra::cli

@@ -19,6 +19,7 @@ class PixelNoise {
   /// Values without black level, sRGB-encoded in 8 bits.
   static PixelNoise Encoded(const ImageSensorOptions& options, const ExposureSetting& exposure);
 
+  /// V(μ) [e²], with the quantisation step at μ: in sRGB values steps grow with the light.
   /// Domain: μ ≥ 0.
   double Variance(double mean_e) const;
   /// dV/dμ, of shot noise and fixed pattern.

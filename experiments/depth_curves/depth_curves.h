@@ -69,9 +69,4 @@ DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const Rand
 /// proportion of x's logarithm; NaN if it does not.
 double HalfPoint(const std::vector<cv::Point2d>& x_and_share);
 
-/// Both models' curves side by side, with what is published and what is predicted.
-std::string DepthCurvesMarkdown(const StructuredLightOptions& options,
-                                const DepthCurves& parametric, const DepthCurves& speckle);
-cv::Mat3b DepthCurvesPicture(const DepthCurves& parametric, const DepthCurves& speckle);
-
 }  // namespace fenestra

@@ -1,7 +1,8 @@
+#include "experiments/depth_curves/depth_curves_picture.h"
+
 #include <cmath>
 
 #include "core/geometry/pose.h"
-#include "experiments/depth_curves/depth_curves.h"
 #include "experiments/depth_curves/depth_laws.h"
 #include "experiments/output/plot.h"
 

@@ -1,10 +1,11 @@
+#include "experiments/depth_curves/depth_curves_report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/geometry/pose.h"
-#include "experiments/depth_curves/depth_curves.h"
 #include "experiments/depth_curves/depth_laws.h"
 #include "experiments/depth_curves/wall_setup.h"
 #include "experiments/output/text_table.h"

@@ -1,9 +1,10 @@
+#include "experiments/emva/photon_transfer_picture.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "experiments/emva/report.h"
 #include "experiments/output/plot.h"
 
 namespace fenestra::emva {

@@ -12,7 +12,4 @@ std::string ReportText(const Results& results, const std::optional<PutIn>& put_i
 std::string ReportMarkdown(const Results& results, const std::optional<PutIn>& put_in);
 std::string ReportJson(const Results& results, const std::optional<PutIn>& put_in);
 
-/// Photon transfer, responsivity, signal to noise and linearity, with the fits and their ranges.
-cv::Mat3b PhotonTransferPicture(const Results& results);
-
 }  // namespace fenestra::emva

@@ -11,7 +11,10 @@
 namespace fenestra {
 
 /// Fields and lines of a CSV file after RFC 4180, except that lines end with a line feed alone: a
-/// field with a comma, a quote or a line break stands in quotes, and quotes in it are doubled.
+/// field with a comma, a quote or a line break stands in quotes, and quotes in it are doubled. A
+/// line's fields may have any number and order of types:
+///
+///     csv.Add("near, by day").Add(3).Add(0.5).EndLine();   // "near, by day",3,0.5
 class CsvWriter {
  public:
   CsvWriter& Add(std::string_view field);

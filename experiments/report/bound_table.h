@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/analysis/cell_summary.h"
+#include "experiments/analysis/metric_samples.h"
 #include "experiments/study/study.h"
 
 namespace fenestra {

@@ -1,6 +1,7 @@
+#include "experiments/report/detector_comparison_report.h"
+
 #include <fmt/format.h>
 
-#include "experiments/analysis/detector_comparison.h"
 #include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"

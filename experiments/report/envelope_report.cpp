@@ -6,6 +6,7 @@
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"
 #include "experiments/report/report_section.h"
+#include "experiments/study/metric.h"
 
 namespace fenestra {
 namespace {
@@ -14,14 +15,20 @@ const EnvelopeRule& RuleOf(const Study& study, const EnvelopeCurve& envelope) {
   return *study.parts[envelope.curve.part_index].envelope;
 }
 
+std::string NameForPeople(const std::string& metric) {
+  if (metric == "hit_rate") return "hit rate";
+  if (metric == "p50_error_mm") return "P50";
+  if (metric == "p95_error_mm") return "P95";
+  return metric;
+}
+
 std::string RequirementText(const EnvelopeRule& rule) {
   std::vector<std::string> demands;
-  const Requirement& require = rule.require;
-  if (require.hit_rate > 0.0) {
-    demands.push_back(fmt::format("hit rate ≥ {:g} %", 100.0 * require.hit_rate));
+  for (const auto& [metric, value] : rule.require) {
+    const bool is_share = FindMetric(metric)->IsShare();
+    demands.push_back(fmt::format("{} {} {:g} {}", NameForPeople(metric), is_share ? "≥" : "≤",
+                                  is_share ? 100.0 * value : value, is_share ? "%" : "mm"));
   }
-  if (require.p50_error_mm) demands.push_back(fmt::format("P50 ≤ {:g} mm", *require.p50_error_mm));
-  if (require.p95_error_mm) demands.push_back(fmt::format("P95 ≤ {:g} mm", *require.p95_error_mm));
   return fmt::format("{}, each shown with {:g} % confidence", fmt::join(demands, " and "),
                      100.0 * rule.confidence);
 }

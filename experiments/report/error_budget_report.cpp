@@ -1,6 +1,7 @@
+#include "experiments/report/error_budget_report.h"
+
 #include <fmt/format.h>
 
-#include "experiments/analysis/error_budget.h"
 #include "experiments/output/file_formats.h"
 #include "experiments/output/number_format.h"
 #include "experiments/output/text_table.h"

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "experiments/analysis/cell_summary.h"
+#include "experiments/analysis/pooled_metrics.h"
 #include "experiments/trial/trial_record.h"
 
 namespace fenestra {
@@ -29,8 +30,12 @@ using RowPass = std::function<void(const std::function<void(const TrialRecord&)>
 /// Writes TrialsCsv's text for rows that are not all in memory, in two passes: columns, then lines.
 void WriteTrialsCsv(const RowPass& for_each_row, std::ostream& out);
 
-/// One line per cell and detector.
+/// One line per cell and detector: counts, then every metric with the ends of its interval.
 std::string SummaryCsv(std::span<const CellSummary> summaries);
+
+/// One line per cell, detector and metric, with its denominator, its interval, how the interval was
+/// made and of how many independent witnesses.
+std::string IntervalsCsv(std::span<const CellSummary> summaries);
 
 /// The text above and below the tables of a report.
 struct ReportTitle {
@@ -42,7 +47,11 @@ struct ReportTitle {
 
 /// The report for people: a headline, one section per part and sensor with its outcomes, errors,
 /// reasons and times, and how to read them.
-std::string SummaryMarkdown(const ReportTitle& title, std::span<const CellSummary> summaries);
+///
+/// `pooled` has the rows of all cells of a part, sensor and detector together (Pooling{}), for the
+/// intervals of the headline; it may be empty.
+std::string SummaryMarkdown(const ReportTitle& title, std::span<const CellSummary> summaries,
+                            std::span<const PooledGroup> pooled = {});
 
 /// Compact tables for a terminal of 120 columns, as long as few factors vary; of 136 columns where
 /// errors have bounds.

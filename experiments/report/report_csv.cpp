@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <span>
 #include <sstream>
 
 #include "experiments/output/file_formats.h"
@@ -85,53 +86,104 @@ std::optional<double> SecondsOf(const TrialRecord& record, const std::string& na
   return std::nullopt;
 }
 
-std::optional<double> SecondsOf(const CellSummary& summary, const std::string& name) {
+const StageMedian* StageOf(const CellSummary& summary, const std::string& name) {
   for (const StageMedian& stage : summary.stage_medians) {
-    if (stage.stage == name) return stage.median_s;
+    if (stage.stage == name) return &stage;
   }
-  return std::nullopt;
+  return nullptr;
+}
+
+constexpr const char* kLower = "_lower95";
+constexpr const char* kUpper = "_upper95";
+
+// Metrics in columns that summary.csv has had from its first version on, in their order.
+constexpr const char* kFirstRates[] = {"hit_rate", "false_alarm_rate"};
+constexpr const char* kFirstErrors[] = {"rmse_mm", "rmse_depth_mm", "rmse_across_mm"};
+constexpr const char* kFirstRatios[] = {"rmse_over_bound", "rmse_depth_over_bound", "p50_error_mm",
+                                        "p95_error_mm"};
+constexpr const char* kBiases[] = {"bias_x_mm", "bias_y_mm", "bias_z_mm"};
+constexpr const char* kMedianTime = "p50_time_ms";
+
+bool IsOneOf(const std::string& name, std::initializer_list<std::span<const char* const>> groups) {
+  return std::any_of(groups.begin(), groups.end(), [&name](const auto& group) {
+    return std::find(group.begin(), group.end(), name) != group.end();
+  });
+}
+
+// Those whose value has a column of its own further on, and those that only lack the ends.
+bool HasValueBefore(const std::string& name) {
+  return IsOneOf(name, {kFirstRates, kFirstErrors, kFirstRatios, kBiases});
+}
+bool HasEndsBefore(const std::string& name) {
+  return IsOneOf(name, {kFirstRates}) || name == kMedianTime;
 }
 
 void AddSummaryHeader(const Names& levels, const Names& stages, CsvWriter& csv) {
   csv.AddAll({"part", "sensor", "cell", "detector"}).AddAll(levels);
   csv.AddAll({"trials", "in_view", "without_target"});
   for (const Outcome outcome : kAllOutcomes) csv.Add(ToString(outcome));
-  csv.AddAll({"hit_rate", "hit_rate_lower95", "hit_rate_upper95", "false_alarm_rate",
-              "false_alarm_rate_lower95", "false_alarm_rate_upper95"});
-  csv.AddAll({"bias_x_mm", "bias_y_mm", "bias_z_mm", "bias_standard_error_x_mm",
-              "bias_standard_error_y_mm", "bias_standard_error_z_mm", "rmse_mm", "rmse_depth_mm",
-              "rmse_across_mm", "bound_mm", "bound_depth_mm", "bound_across_mm", "rmse_over_bound",
-              "rmse_depth_over_bound", "p50_error_mm", "p95_error_mm", "reasons", "timed"});
+  for (const std::string rate : kFirstRates) {
+    csv.AddAll({rate, ColumnOf(rate, kLower), ColumnOf(rate, kUpper)});
+  }
+  for (const char* bias : kBiases) csv.Add(bias);
+  csv.AddAll({"bias_standard_error_x_mm", "bias_standard_error_y_mm", "bias_standard_error_z_mm"});
+  for (const char* error : kFirstErrors) csv.Add(error);
+  csv.AddAll({"bound_mm", "bound_depth_mm", "bound_across_mm"});
+  for (const char* ratio : kFirstRatios) csv.Add(ratio);
+  csv.AddAll({"reasons", "timed"});
+  for (const NamedMetric& metric : Metrics()) {
+    if (HasEndsBefore(metric.name)) continue;
+    if (!HasValueBefore(metric.name)) csv.Add(metric.name);
+    csv.AddAll({ColumnOf(metric.name, kLower), ColumnOf(metric.name, kUpper)});
+  }
+  csv.AddAll({"time_total_median_lower95_ms", "time_total_median_upper95_ms"});
+  for (const std::string& stage : stages) {
+    csv.AddAll(
+        {fmt::format("time_{}_lower95_ms", stage), fmt::format("time_{}_upper95_ms", stage)});
+  }
   csv.AddAll(TimeColumns("time_total_median_ms", stages)).EndLine();
 }
 
-void AddProportion(const Proportion& proportion, CsvWriter& csv) {
-  if (proportion.of == 0) {
-    csv.AddAll({"", "", ""});
-    return;
-  }
-  csv.Add(proportion.rate());
-  csv.Add(proportion.interval95.lower).Add(proportion.interval95.upper);
+void AddEnds(const MetricEstimate* estimate, CsvWriter& csv) {
+  const bool has = estimate != nullptr && estimate->interval;
+  csv.Add(has ? std::optional(estimate->interval->lower) : std::nullopt);
+  csv.Add(has ? std::optional(estimate->interval->upper) : std::nullopt);
 }
 
-void AddHitErrors(const std::optional<HitErrors>& errors, CsvWriter& csv) {
-  std::optional<Eigen::Vector3d> bias_mm;
-  std::optional<Eigen::Vector3d> bias_standard_error_mm;
-  if (errors) bias_mm = 1e3 * errors->bias;
-  if (errors && errors->bias_standard_error) {
-    bias_standard_error_mm = 1e3 * *errors->bias_standard_error;
+void AddStandardErrors(const CellSummary& row, CsvWriter& csv) {
+  for (const char* bias : kBiases) {
+    const MetricEstimate* estimate = row.Find(bias);
+    csv.Add(estimate != nullptr ? estimate->standard_error : std::nullopt);
   }
-  AddVector(bias_mm, csv);
-  AddVector(bias_standard_error_mm, csv);
-  for (const auto rmse : {&HitErrors::rmse, &HitErrors::rmse_depth, &HitErrors::rmse_across}) {
-    csv.Add(ToMilli(errors ? std::optional((*errors).*rmse) : std::nullopt));
+}
+
+void AddMetrics(const CellSummary& row, CsvWriter& csv) {
+  for (const char* rate : kFirstRates) {
+    csv.Add(row.Value(rate));
+    AddEnds(row.Find(rate), csv);
   }
-  const bool bounded = errors && errors->bounds;
+  for (const char* bias : kBiases) csv.Add(row.Value(bias));
+  AddStandardErrors(row, csv);
+  for (const char* error : kFirstErrors) csv.Add(row.Value(error));
   for (const auto bound : {&ErrorBounds::all, &ErrorBounds::depth, &ErrorBounds::across}) {
-    csv.Add(ToMilli(bounded ? std::optional((*errors->bounds).*bound) : std::nullopt));
+    csv.Add(ToMilli(row.bounds ? std::optional((*row.bounds).*bound) : std::nullopt));
   }
-  csv.Add(errors ? errors->OverBound() : std::nullopt);
-  csv.Add(errors ? errors->DepthOverBound() : std::nullopt);
+  for (const char* ratio : kFirstRatios) csv.Add(row.Value(ratio));
+}
+
+void AddFurtherMetrics(const CellSummary& row, const Names& stages, CsvWriter& csv) {
+  for (const NamedMetric& metric : Metrics()) {
+    if (HasEndsBefore(metric.name)) continue;
+    if (!HasValueBefore(metric.name)) csv.Add(row.Value(metric.name));
+    AddEnds(row.Find(metric.name), csv);
+  }
+  AddEnds(row.Find(kMedianTime), csv);
+  for (const std::string& name : stages) {
+    const StageMedian* stage = StageOf(row, name);
+    for (const auto end : {&Interval::lower, &Interval::upper}) {
+      csv.Add(ToMilli(stage != nullptr ? std::optional(stage->interval_s.*end) : std::nullopt));
+    }
+  }
 }
 
 /// "missed/no_contour: 3; crashed/exception: 1".
@@ -181,6 +233,22 @@ std::string TrialsCsv(std::span<const TrialRecord> records) {
   return out.str();
 }
 
+std::string IntervalsCsv(std::span<const CellSummary> summaries) {
+  CsvWriter csv;
+  csv.AddAll({"part", "sensor", "cell", "detector", "levels", "figure", "value", "of", "lower",
+              "upper", "confidence", "method", "clusters"});
+  csv.EndLine();
+  for (const CellSummary& row : summaries) {
+    for (const auto& [name, estimate] : row.metrics) {
+      csv.Add(row.part).Add(ToString(row.sensor)).Add(row.cell).Add(row.detector);
+      csv.Add(LevelsText(row.levels)).Add(name).Add(estimate.value).Add(estimate.of);
+      AddEnds(&estimate, csv);
+      csv.Add(row.confidence).Add(estimate.method).Add(estimate.clusters).EndLine();
+    }
+  }
+  return csv.text();
+}
+
 std::string SummaryCsv(std::span<const CellSummary> summaries) {
   Names levels;
   Names stages;
@@ -195,12 +263,14 @@ std::string SummaryCsv(std::span<const CellSummary> summaries) {
     for (const std::string& level : levels) csv.Add(LevelText(row.levels, level));
     csv.Add(row.trials).Add(row.in_view).Add(row.without_target);
     for (const Outcome outcome : kAllOutcomes) csv.Add(row.counts[outcome]);
-    AddProportion(row.hits, csv);
-    AddProportion(row.false_alarms, csv);
-    AddHitErrors(row.hit_errors, csv);
-    csv.Add(ToMilli(row.p50_error_m)).Add(ToMilli(row.p95_error_m));
-    csv.Add(ReasonText(row.reasons)).Add(row.timed).Add(ToMilli(row.median_total_s));
-    for (const std::string& stage : stages) csv.Add(ToMilli(SecondsOf(row, stage)));
+    AddMetrics(row, csv);
+    csv.Add(ReasonText(row.reasons)).Add(row.timed);
+    AddFurtherMetrics(row, stages, csv);
+    csv.Add(row.Value(kMedianTime));
+    for (const std::string& name : stages) {
+      const StageMedian* stage = StageOf(row, name);
+      csv.Add(ToMilli(stage != nullptr ? std::optional(stage->median_s) : std::nullopt));
+    }
     csv.EndLine();
   }
   return csv.text();

@@ -9,8 +9,22 @@
 namespace fenestra {
 namespace {
 
-std::string Millimetres(std::optional<double> value_m) {
-  return Significant(ToMilli(value_m));
+// "12.3 (11.9 to 12.7)", the value and the ends of its interval.
+std::string WithInterval(double value, const std::optional<Interval>& interval) {
+  if (!interval) return Significant(value);
+  return fmt::format("{} ({} to {})", Significant(value), Significant(interval->lower),
+                     Significant(interval->upper));
+}
+
+std::string WithInterval(const MetricEstimate* estimate) {
+  return estimate == nullptr ? kAbsent : WithInterval(estimate->value, estimate->interval);
+}
+
+// "95.0 % (90.0–97.9 %)".
+std::string ShareWithInterval(const MetricEstimate* share) {
+  if (share == nullptr) return kAbsent;
+  return share->interval ? fmt::format("{} ({})", Percent(share->value), Percent(*share->interval))
+                         : Percent(share->value);
 }
 
 int Sum(const ReportSection& section, const std::string& detector, auto count) {
@@ -21,24 +35,49 @@ int Sum(const ReportSection& section, const std::string& detector, auto count) {
   return sum;
 }
 
-/// "- **near** (rgbd, paper-rgbd): 38 of 40 attempts hit (95.0 %)".
-std::string HeadlineItem(const ReportSection& section, const std::string& detector) {
+// Of all cells of the section; "" where it is not known.
+std::string PooledInterval(const ReportSection& section, const std::string& detector,
+                           const char* rate, std::span<const PooledGroup> pooled) {
+  const std::vector<std::optional<ParameterValue>> key = {
+      section.part, std::string(ToString(section.sensor)), detector};
+  for (const PooledGroup& group : pooled) {
+    if (group.values != key) continue;
+    const MetricEstimate* estimate = Find(group.metrics, rate);
+    if (estimate != nullptr && estimate->interval) {
+      return fmt::format(", 95 % interval {}", Percent(*estimate->interval));
+    }
+  }
+  return "";
+}
+
+/// "- **near** (rgbd, paper-rgbd): 38 of 40 attempts hit (95.0 %), 95 % interval 83.1–99.4 %".
+std::string HeadlineItem(const ReportSection& section, const std::string& detector,
+                         std::span<const PooledGroup> pooled) {
   const auto total = [&](auto count) { return Sum(section, detector, count); };
   std::string text =
       fmt::format("- **{}** ({}, {}): ", section.part, ToString(section.sensor), detector);
   if (section.has_attempts) {
-    const int hits = total([](const CellSummary& row) { return row.hits.count; });
+    const int hits = total([](const CellSummary& row) { return row.counts[Outcome::kHit]; });
     const int attempts = total([](const CellSummary& row) { return row.in_view; });
     text += fmt::format("{} of {} attempts hit", hits, attempts);
     if (attempts > 0) text += fmt::format(" ({})", Percent(static_cast<double>(hits) / attempts));
+    text += PooledInterval(section, detector, "hit_rate", pooled);
     text += section.has_empty_scenes ? "; " : "";
   }
   if (section.has_empty_scenes) {
-    text += fmt::format("{} of {} scenes without a window gave a false alarm",
-                        total([](const CellSummary& row) { return row.false_alarms.count; }),
-                        total([](const CellSummary& row) { return row.without_target; }));
+    text +=
+        fmt::format("{} of {} scenes without a window gave a false alarm",
+                    total([](const CellSummary& row) { return row.counts[Outcome::kFalseAlarm]; }),
+                    total([](const CellSummary& row) { return row.without_target; }));
+    text += PooledInterval(section, detector, "false_alarm_rate", pooled);
   }
   return text + "\n";
+}
+
+// In two cells.
+void AddShare(const MetricEstimate* share, std::vector<std::string>& cells) {
+  cells.push_back(share != nullptr ? Percent(share->value) : kAbsent);
+  cells.push_back(share != nullptr && share->interval ? Percent(*share->interval) : kAbsent);
 }
 
 std::string OutcomeTable(const ReportSection& section) {
@@ -56,8 +95,7 @@ std::string OutcomeTable(const ReportSection& section) {
                                   Outcome::kMissed, Outcome::kCrashed}) {
       cells.push_back(std::to_string(row->counts[outcome]));
     }
-    cells.push_back(row->in_view > 0 ? Percent(row->hits.rate()) : kAbsent);
-    cells.push_back(row->in_view > 0 ? Percent(row->hits.interval95) : kAbsent);
+    AddShare(row->Find("hit_rate"), cells);
     cells.push_back(std::to_string(row->counts[Outcome::kOutOfView]));
     table.AddRow(std::move(cells));
   }
@@ -80,49 +118,65 @@ std::string FalseAlarmTable(const ReportSection& section) {
          {row->without_target, alarms, clear, row->without_target - alarms - clear}) {
       cells.push_back(std::to_string(count));
     }
-    cells.push_back(Percent(row->false_alarms.rate()));
-    cells.push_back(Percent(row->false_alarms.interval95));
+    AddShare(row->Find("false_alarm_rate"), cells);
     table.AddRow(std::move(cells));
   }
   return "### Scenes without a window\n\n" + table.ToMarkdown() + "\n";
 }
 
-std::string ErrorTable(const ReportSection& section) {
+// Hits within several shares of the window's side, and the same of the parts of the error.
+std::string NearnessTable(const ReportSection& section) {
+  constexpr std::pair<const char*, const char*> kColumns[] = {
+      {"hits within 5 %", "hit_rate_5pct"},
+      {"10 %", "hit_rate_10pct"},
+      {"25 %", "hit_rate"},
+      {"depth within 5 %", "depth_rate_5pct"},
+      {"10 %", "depth_rate_10pct"},
+      {"25 %", "depth_rate_25pct"},
+      {"across within 5 %", "across_rate_5pct"},
+      {"10 %", "across_rate_10pct"},
+      {"25 %", "across_rate_25pct"}};
   TextTable table;
   AddKeyColumns(section, table);
-  for (const char* heading :
-       {"hits", "bias x", "bias y", "bias z", "RMSE", "RMSE depth", "RMSE across"}) {
-    table.AddColumn(heading);
+  table.AddColumn("in view");
+  for (const auto& [heading, metric] : kColumns) table.AddColumn(heading);
+  bool known = false;
+  for (const CellSummary* row : section.rows) {
+    if (row->in_view == 0) continue;
+    known |= row->Find("hit_rate_5pct") != nullptr;
+    std::vector<std::string> cells = KeyCells(section, *row);
+    cells.push_back(std::to_string(row->in_view));
+    for (const auto& [heading, metric] : kColumns) {
+      cells.push_back(ShareWithInterval(row->Find(metric)));
+    }
+    table.AddRow(std::move(cells));
   }
+  if (!known) return "";
+  return "### Attempts within a share of the window's side\n\n" + table.ToMarkdown() + "\n";
+}
+
+std::string ErrorTable(const ReportSection& section) {
+  std::vector<std::pair<const char*, const char*>> of_hits = {
+      {"bias x", "bias_x_mm"}, {"bias y", "bias_y_mm"},         {"bias z", "bias_z_mm"},
+      {"RMSE", "rmse_mm"},     {"RMSE depth", "rmse_depth_mm"}, {"RMSE across", "rmse_across_mm"}};
   if (section.has_bounds) {
-    table.AddColumn("RMSE / bound");
-    table.AddColumn("depth / bound");
+    of_hits.emplace_back("RMSE / bound", "rmse_over_bound");
+    of_hits.emplace_back("depth / bound", "rmse_depth_over_bound");
   }
+  TextTable table;
+  AddKeyColumns(section, table);
+  table.AddColumn("hits");
+  for (const auto& [heading, metric] : of_hits) table.AddColumn(heading);
   for (const char* heading : {"in view", "P50", "P95"}) table.AddColumn(heading);
   for (const CellSummary* row : section.rows) {
     if (row->in_view == 0) continue;
     std::vector<std::string> cells = KeyCells(section, *row);
-    cells.push_back(std::to_string(row->hits.count));
-    const auto& errors = row->hit_errors;
-    for (int axis = 0; axis < 3; ++axis) {
-      std::optional<double> standard_error_m;
-      if (errors && errors->bias_standard_error) {
-        standard_error_m = (*errors->bias_standard_error)[axis];
-      }
-      cells.push_back(errors
-                          ? WithStandardError(1e3 * errors->bias[axis], ToMilli(standard_error_m))
-                          : kAbsent);
-    }
-    for (const auto rmse : {&HitErrors::rmse, &HitErrors::rmse_depth, &HitErrors::rmse_across}) {
-      cells.push_back(Millimetres(errors ? std::optional((*errors).*rmse) : std::nullopt));
-    }
-    if (section.has_bounds) {
-      cells.push_back(Significant(errors ? errors->OverBound() : std::nullopt));
-      cells.push_back(Significant(errors ? errors->DepthOverBound() : std::nullopt));
-    }
+    cells.push_back(std::to_string(row->counts[Outcome::kHit]));
+    for (const auto& [heading, metric] : of_hits) cells.push_back(WithInterval(row->Find(metric)));
     cells.push_back(std::to_string(row->in_view));
-    cells.push_back(Millimetres(row->p50_error_m));
-    cells.push_back(Millimetres(row->p95_error_m));
+    for (const char* metric : {"p50_error_mm", "p95_error_mm"}) {
+      cells.push_back(WithInterval(row->Find(metric)));
+    }
     table.AddRow(std::move(cells));
   }
   if (table.empty()) return "";
@@ -146,6 +200,11 @@ std::string ReasonTable(const ReportSection& section) {
   }
   if (table.empty()) return "";
   return "### Reasons of the trials without an estimate\n\n" + table.ToMarkdown() + "\n";
+}
+
+std::string WithInterval(const StageMedian& stage) {
+  return WithInterval(1e3 * stage.median_s, Interval{.lower = 1e3 * stage.interval_s.lower,
+                                                     .upper = 1e3 * stage.interval_s.upper});
 }
 
 std::string TimeTable(const ReportSection& section, const std::string& detector) {
@@ -172,10 +231,9 @@ std::string TimeTable(const ReportSection& section, const std::string& detector)
     for (const std::string& stage : stages) {
       const auto found = std::find_if(row->stage_medians.begin(), row->stage_medians.end(),
                                       [&](const auto& median) { return median.stage == stage; });
-      const bool has = found != row->stage_medians.end();
-      cells.push_back(Significant(has ? std::optional(1e3 * found->median_s) : std::nullopt));
+      cells.push_back(found == row->stage_medians.end() ? kAbsent : WithInterval(*found));
     }
-    cells.push_back(Significant(ToMilli(row->median_total_s)));
+    cells.push_back(WithInterval(row->Find("p50_time_ms")));
     cells.push_back(Significant(PaperMilliseconds(section.sensor)));
     table.AddRow(std::move(cells));
   }
@@ -185,7 +243,8 @@ std::string TimeTable(const ReportSection& section, const std::string& detector)
 
 std::string Section(const ReportSection& section) {
   std::string text = "## " + Heading(section) + "\n\n";
-  if (section.has_attempts) text += OutcomeTable(section) + ErrorTable(section);
+  if (section.has_attempts)
+    text += OutcomeTable(section) + NearnessTable(section) + ErrorTable(section);
   if (section.has_empty_scenes) text += FalseAlarmTable(section);
   text += ReasonTable(section);
   for (const std::string& detector : section.detectors) text += TimeTable(section, detector);
@@ -200,17 +259,29 @@ std::string HowToRead() {
   return text + R"md(
 The denominators: *in view* are the attempts, all trials with the target wholly in view; they are
 the sum of `hit`, `gross`, `wrong_window`, `missed` and `crashed`. *scenes* are the trials without a
-window; they are the sum of `false_alarm`, `clear` and the crashes among them. The 95 % intervals of
-rates are Clopper–Pearson's.
+window; they are the sum of `false_alarm`, `clear` and the crashes among them.
 
-*bias* is the mean over the hits of estimate minus truth, ± its standard error, in the frame of the
-scored camera: x to the right, y down, z in depth. *RMSE* is over the hits, too: √(mean of
-x² + y² + z²), *depth* √(mean of z²), *across* √(mean of x² + y²). */ bound* is the RMSE as a multiple
-of Cramér and Rao's bound for the same hits, each where it stands: what an unbiased estimate that
-knows what the detector knows could reach (docs/theory.md). *P50* and *P95* are quantiles of
-the three-dimensional error over all attempts, where one without an estimate counts as infinite:
-`inf` in P95 says that more than 5 % of the attempts gave no estimate, however small the RMSE of the
-others. — stands where there is no such figure.
+*hits within* 5, 10 and 25 % of the window's side (the smaller of its width and height) are shares of
+the attempts in view; a `hit` is one within 25 %. *depth* and *across* hold the parts of the error, z
+and √(x² + y²), against the same shares, of `gross` estimates too.
+
+*bias* is the mean over the hits of estimate minus truth, in the frame of the scored camera: x to the
+right, y down, z in depth. *RMSE* is over the hits, too: √(mean of x² + y² + z²), *depth* √(mean of
+z²), *across* √(mean of x² + y²). */ bound* is the RMSE as a multiple of Cramér and Rao's bound for
+the same hits, each where it stands: what an unbiased estimate that knows what the detector knows
+could reach (docs/theory.md). *P50* and *P95* are quantiles of the three-dimensional error over all
+attempts, where one without an estimate counts as infinite: `inf` in P95 says that more than 5 % of
+the attempts gave no estimate, however small the RMSE of the others. — stands where there is no such
+figure.
+
+In parentheses stand the ends of 95 % intervals: of rates Clopper and Pearson's; of the bias
+Student's t; of the RMSE a studentised bootstrap of its logarithm; of P50, P95 and median times order
+statistics, with misses as +∞, so that an end may be infinite. Where cells could stop early, intervals
+are wider, so that they cover together with 95 % at all looks. In a sensitivity design they are made
+of the two trials of each row that share no draw. Cells share the random numbers of their trials
+unless the study says otherwise: an interval of several cells together, as at the top, counts the
+trials of one number as one witness (docs/studies.md). intervals.csv has all metrics, with the method
+and the number of witnesses of each.
 
 Times are medians over the trials that did not crash, stage by stage (so they need not add up), on
 the machine named below; *paper* is the total that the paper of 2013 states for its own machine.
@@ -228,13 +299,16 @@ std::string Provenance(const ReportTitle& title) {
 
 }  // namespace
 
-std::string SummaryMarkdown(const ReportTitle& title, std::span<const CellSummary> summaries) {
+std::string SummaryMarkdown(const ReportTitle& title, std::span<const CellSummary> summaries,
+                            std::span<const PooledGroup> pooled) {
   std::string text = fmt::format("# {}\n\n", title.study);
   if (!title.description.empty()) text += title.description + "\n\n";
   const std::vector<ReportSection> sections = MakeSections(summaries);
   if (sections.empty()) text += "No trials.\n";
   for (const ReportSection& section : sections) {
-    for (const std::string& detector : section.detectors) text += HeadlineItem(section, detector);
+    for (const std::string& detector : section.detectors) {
+      text += HeadlineItem(section, detector, pooled);
+    }
   }
   text += "\n";
   for (const ReportSection& section : sections) text += Section(section);

@@ -45,7 +45,7 @@ std::vector<ReportSection> MakeSections(std::span<const CellSummary> summaries) 
     AppendNew(row.detector, section.detectors);
     section.has_attempts |= row.in_view + row.counts[Outcome::kOutOfView] > 0;
     section.has_empty_scenes |= row.without_target > 0;
-    section.has_bounds |= row.hit_errors && row.hit_errors->bounds;
+    section.has_bounds |= row.bounds.has_value();
   }
   // A section of a single cell shows its value of what varies in others.
   std::vector<std::string> varying;

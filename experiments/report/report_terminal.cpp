@@ -36,9 +36,7 @@ TextTable TableOf(const ReportSection& section) {
 std::vector<std::string> Row(const ReportSection& section, const CellSummary& row) {
   std::vector<std::string> cells = KeyCells(section, row);
   const auto add_count = [&](int count) { cells.push_back(std::to_string(count)); };
-  const auto add_mm = [&](std::optional<double> value_m) {
-    cells.push_back(Significant(ToMilli(value_m)));
-  };
+  const auto add_metric = [&](const char* name) { cells.push_back(Significant(row.Value(name))); };
   if (section.has_attempts) {
     add_count(row.in_view);
     for (const Outcome outcome :
@@ -54,19 +52,17 @@ std::vector<std::string> Row(const ReportSection& section, const CellSummary& ro
   add_count(row.counts[Outcome::kCrashed]);
   if (section.has_attempts) {
     add_count(row.counts[Outcome::kOutOfView]);
-    const auto& errors = row.hit_errors;
-    for (int axis = 0; axis < 3; ++axis) {
-      add_mm(errors ? std::optional(errors->bias[axis]) : std::nullopt);
+    for (const char* metric :
+         {"bias_x_mm", "bias_y_mm", "bias_z_mm", "rmse_across_mm", "rmse_depth_mm"}) {
+      add_metric(metric);
     }
-    add_mm(errors ? std::optional(errors->rmse_across) : std::nullopt);
-    add_mm(errors ? std::optional(errors->rmse_depth) : std::nullopt);
     if (section.has_bounds) {
-      cells.push_back(Significant(errors ? errors->DepthOverBound() : std::nullopt));
-      cells.push_back(Significant(errors ? errors->OverBound() : std::nullopt));
+      add_metric("rmse_depth_over_bound");
+      add_metric("rmse_over_bound");
     }
-    add_mm(row.p95_error_m);
+    add_metric("p95_error_mm");
   }
-  cells.push_back(Significant(ToMilli(row.median_total_s)));
+  add_metric("p50_time_ms");
   return cells;
 }
 
@@ -76,9 +72,10 @@ std::string StageLine(const ReportSection& section, const std::string& detector)
   std::vector<std::pair<std::string, std::vector<double>>> stages;
   std::vector<double> totals;
   for (const CellSummary* row : section.rows) {
-    if (row->detector != detector || !row->median_total_s) continue;
+    const auto total_ms = row->Value("p50_time_ms");
+    if (row->detector != detector || !total_ms) continue;
     if (section.has_attempts && row->counts[Outcome::kHit] == 0) continue;
-    totals.push_back(*row->median_total_s);
+    totals.push_back(*total_ms);
     for (const StageMedian& median : row->stage_medians) {
       const auto same = [&median](const auto& stage) { return stage.first == median.stage; };
       auto found = std::find_if(stages.begin(), stages.end(), same);
@@ -91,8 +88,7 @@ std::string StageLine(const ReportSection& section, const std::string& detector)
   for (const auto& [stage, medians] : stages) {
     text += fmt::format("{} {}, ", stage, Significant(1e3 * SampleQuantile(medians, 0.5)));
   }
-  return text + fmt::format("of {} (the paper: {})\n",
-                            Significant(1e3 * SampleQuantile(totals, 0.5)),
+  return text + fmt::format("of {} (the paper: {})\n", Significant(SampleQuantile(totals, 0.5)),
                             Significant(PaperMilliseconds(section.sensor)));
 }
 

@@ -9,16 +9,14 @@
 
 #include "experiments/analysis/detector_comparison.h"
 #include "experiments/analysis/error_budget.h"
-#include "experiments/analysis/figure_tally.h"
 #include "experiments/analysis/trial_plan.h"
 #include "experiments/study/study.h"
 
 namespace fenestra {
 
-/// What is derived from a study's rows beside the summary of each cell: intervals of all figures,
-/// comparisons of detectors, error budgets, envelopes. Of each row it keeps a few numbers.
-/// Intervals and comparisons take trials to be independent; of a sensitivity design's rows they use
-/// the two trials that have nothing in common.
+/// What is derived from a study's rows beside the summary of each cell: comparisons of detectors,
+/// error budgets, envelopes. Of each row it keeps a few numbers. Comparisons take trials to be
+/// independent; of a sensitivity design's rows they use the two trials that have nothing in common.
 class RowReports {
  public:
   /// Keeps references to both.
@@ -29,21 +27,15 @@ class RowReports {
 
   /// Sections to stand after the summary.
   std::string Markdown() const;
-  /// Text files by name, those that have something to say: intervals.csv, comparison.csv,
-  /// error_budget.csv, envelope.csv.
+  /// Text files by name, those that have something to say: comparison.csv, error_budget.csv,
+  /// envelope.csv.
   std::map<std::string, std::string> Files() const;
   /// Of the study, so far.
   std::vector<EnvelopeCurve> Envelopes() const { return plan_.Envelopes(); }
 
  private:
-  bool IsIndependent(const TrialRecord& row) const;
-  std::string IntervalsCsv() const;
-  std::string IntervalsMarkdown() const;
-
   const Study& study_;
-  std::span<const Cell> cells_;
-  std::vector<size_t> causes_;  ///< How many each cell has; 0 with other designs.
-  std::map<std::pair<int, std::string>, FigureTally> figures_;
+  RowContext context_;
   DetectorComparisons comparisons_;
   ErrorBudgets budgets_;
   TrialPlan plan_;
@@ -54,7 +46,7 @@ void WriteRowReports(const RowReports& reports, const Study& study,
                      const std::filesystem::path& folder);
 
 /// The names of all files that WriteRowReports may write.
-inline const std::vector<std::string> kRowReportFiles{
-    "intervals.csv", "comparison.csv", "error_budget.csv", "envelope.csv", "envelope.png"};
+inline const std::vector<std::string> kRowReportFiles{"comparison.csv", "error_budget.csv",
+                                                      "envelope.csv", "envelope.png"};
 
 }  // namespace fenestra

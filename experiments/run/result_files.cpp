@@ -51,7 +51,8 @@ ReportTitle TitleOf(const ResultStore& store, const Study& study) {
 // Sums up rows, of which those of a cell must agree about what it is.
 class CheckedSummariser {
  public:
-  explicit CheckedSummariser(const fs::path& file) : file_(file) {}
+  CheckedSummariser(const fs::path& file, RowContext context)
+      : file_(file), summariser_(std::move(context)) {}
 
   void Add(const TrialRecord& row) {
     if (!first_ || row.cell != first_->cell) first_ = row;
@@ -82,6 +83,12 @@ Study StudyOf(const ResultStore& store, const fs::path& file) {
                    Detectors());
 }
 
+RowContext ContextOf(const ResultStore& store, const fs::path& file) {
+  if (!store.Metadata().contains("study")) return RowContext();
+  const Study study = StudyOf(store, file);
+  return RowContext(study, Cells(study));
+}
+
 void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const fs::path& file) {
   const auto cell = static_cast<size_t>(row.cell);
   if (cell < cells.size() && row.trial < cells[cell].repetitions) return;
@@ -89,8 +96,8 @@ void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const f
                                      row.trial, row.cell));
 }
 
-std::vector<CellSummary> Summarise(const ResultStore& store) {
-  CheckedSummariser summariser(ResultStore::kFileName);
+std::vector<CellSummary> Summarise(const ResultStore& store, RowContext context) {
+  CheckedSummariser summariser(ResultStore::kFileName, std::move(context));
   store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
   return summariser.Finish();
 }
@@ -98,10 +105,12 @@ std::vector<CellSummary> Summarise(const ResultStore& store) {
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
                                           std::span<const Cell> cells, const fs::path& folder) {
   const fs::path file = folder / ResultStore::kFileName;
-  CheckedSummariser summariser(file);
+  CheckedSummariser summariser(file, RowContext(study, cells));
+  PooledMetrics pooled(study, cells, {.metrics = {"hit_rate", "false_alarm_rate"}});
   store.ForEachRow([&](const TrialRecord& row) {
     RequireTrialOf(cells, row, file);
     summariser.Add(row);
+    pooled.Add(row);
   });
   std::vector<CellSummary> summaries = summariser.Finish();
   WriteFileAtomically(folder / "study.yaml", Get(store.Metadata(), "study"));
@@ -109,10 +118,12 @@ std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study&
     WriteTrialsCsv([&store](const auto& visit) { store.ForEachRow(visit); }, out);
   });
   WriteFileAtomically(folder / "summary.csv", SummaryCsv(summaries));
+  WriteFileAtomically(folder / "intervals.csv", IntervalsCsv(summaries));
   RowReports reports(study, cells);
   store.ForEachRow([&reports](const TrialRecord& row) { reports.Add(row); });
-  WriteFileAtomically(folder / "summary.md",
-                      SummaryMarkdown(TitleOf(store, study), summaries) + reports.Markdown());
+  WriteFileAtomically(
+      folder / "summary.md",
+      SummaryMarkdown(TitleOf(store, study), summaries, pooled.Groups()) + reports.Markdown());
   WriteRowReports(reports, study, folder);
   return summaries;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "experiments/analysis/cell_summary.h"
+#include "experiments/analysis/row_context.h"
 #include "experiments/store/store.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/detector_maker.h"
@@ -32,12 +33,16 @@ std::filesystem::path StoreFile(const std::filesystem::path& results);
 /// The resolved study of a store. Throws InputError if this program cannot read it.
 Study StudyOf(const ResultStore& store, const std::filesystem::path& file);
 
+/// What a store's study says of its rows; of a recorded sequence, that each is independent.
+RowContext ContextOf(const ResultStore& store, const std::filesystem::path& file);
+
 /// Throws InputError if the study has no such trial.
 void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row,
                     const std::filesystem::path& file);
 
-/// Summaries of all rows; holds the numbers of one cell at a time.
-std::vector<CellSummary> Summarise(const ResultStore& store);
+/// Summaries of all rows; holds the numbers of one cell at a time. Without a context every row is
+/// taken for independent.
+std::vector<CellSummary> Summarise(const ResultStore& store, RowContext context = {});
 
 /// Writes all but the pictures. `study` is the store's, `cells` are all of its cells.
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,

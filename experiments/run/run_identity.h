@@ -16,8 +16,8 @@ std::string LibraryVersions();
 /// it differs, since rows that differ in their last bits could not be told from each other
 /// afterwards.
 struct RunIdentity {
-  std::string study;  ///< Resolved, as YAML; the seed is in it.
-  std::string version;
+  std::string study;      ///< Resolved, as YAML; the seed is in it.
+  std::string version;    ///< Of Fenestra: "0.1.0".
   std::string build;      ///< The linker's hash of the program.
   std::string libraries;  ///< See LibraryVersions.
   std::string instruction_set;
@@ -27,7 +27,9 @@ struct RunIdentity {
 /// The identity of a study's rows when this program runs it on this machine.
 RunIdentity IdentityOf(const Study& study);
 
-/// Writes an identity into a store's metadata, and reads it; an entry that is missing is empty.
+/// Writes an identity into a store's metadata, and reads it. Each field has an entry of its name;
+/// one that is missing, as in the results of an older program, is empty and thus differs wherever
+/// this program has something to say.
 void AddTo(StoreMetadata& metadata, const RunIdentity& identity);
 RunIdentity IdentityFrom(const StoreMetadata& metadata);
 

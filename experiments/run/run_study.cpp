@@ -159,7 +159,7 @@ StudyResult RunStudy(const StudyRun& run) {
                      .stored = start.stored,
                      .summaries = {}};
   if (complete && HasResultFiles(run.out)) {
-    result.summaries = Summarise(*store);
+    result.summaries = Summarise(*store, RowContext(run.study, cells));
     return result;
   }
   run.on_start(start);

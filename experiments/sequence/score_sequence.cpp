@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 #include <optional>
 
 #include "core/io/input_error.h"
@@ -85,6 +87,17 @@ StoreMetadata MetadataOf(const SequenceRun& run) {
           {"processor", Processor()}};
 }
 
+// Of the targets, by cell and trial.
+std::map<std::pair<int, int>, double> SidesOf(const Sequence& sequence) {
+  std::map<std::pair<int, int>, double> sides_m;
+  for (const SequenceFrame& frame : sequence.frames) {
+    if (!frame.truth.target) continue;
+    sides_m[{frame.cell, frame.trial}] =
+        std::min(frame.truth.target->width_m, frame.truth.target->height_m);
+  }
+  return sides_m;
+}
+
 void WriteReports(const SequenceRun& run, const std::vector<TrialRecord>& records,
                   const std::vector<CellSummary>& summaries) {
   const ReportTitle title{
@@ -132,7 +145,7 @@ std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
                                           ResultStore::IfExists::kReplace);
   for (const auto& rows : trials) store.AddTrial(rows);
   const std::vector<TrialRecord> records = store.Rows();
-  std::vector<CellSummary> summaries = Summarise(records);
+  std::vector<CellSummary> summaries = Summarise(records, RowContext(SidesOf(run.sequence)));
   WriteReports(run, records, summaries);
   return summaries;
 }

@@ -24,7 +24,8 @@ MadeDetections ReadDetections(const std::string& label, const std::filesystem::p
                               size_t frames);
 
 /// A recorded sequence that is scored into a results folder: results.sqlite, trials.csv,
-/// summary.csv and summary.md, as those of a study (run_study.h).
+/// summary.csv and summary.md, as those of a study (run_study.h). Every detector of the sequence
+/// sees every image; detections that were made elsewhere count as those of one more detector.
 struct SequenceRun {
   Sequence sequence;
   std::vector<MadeDetections> made;
@@ -32,7 +33,8 @@ struct SequenceRun {
   std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
 };
 
-/// Throws InputError for a file that cannot be read; nothing is written then.
+/// Scores every image under every detector; the rows have the cells and trials that the sequence
+/// gives. Throws InputError for a file that cannot be read; nothing is written then.
 std::vector<CellSummary> ScoreSequence(const SequenceRun& run);
 
 }  // namespace fenestra

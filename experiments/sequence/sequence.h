@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/detection/observation.h"
+#include "core/io/yaml_reader.h"
 #include "experiments/study/factors.h"
 #include "experiments/study_file/detector_reader.h"
 #include "sim/truth/ground_truth.h"
@@ -52,5 +53,11 @@ struct Sequence {
 /// which `part` it is and give `levels` and `drawn`, mappings of names to values: frames are
 /// summarised by part and levels.
 Sequence ReadSequence(const std::filesystem::path& file);
+
+/// Reads the truth that was surveyed of one observation; faults are noted in the reader.
+GroundTruth ReadSurveyedTruth(YamlReader& reader, const YAML::Node& node);
+
+/// The truth as YAML, on one line; ReadSurveyedTruth reads it back.
+std::string ToYaml(const GroundTruth& truth);
 
 }  // namespace fenestra

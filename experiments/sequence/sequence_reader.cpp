@@ -6,10 +6,8 @@
 #include <tuple>
 
 #include "experiments/sequence/sequence.h"
-#include "experiments/sequence/surveyed_truth.h"
 #include "experiments/store/record_json.h"
 #include "experiments/study_file/detector_reader.h"
-#include "experiments/study_file/name_reader.h"
 #include "experiments/study_file/study_blocks.h"
 
 namespace fenestra {

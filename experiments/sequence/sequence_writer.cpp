@@ -6,7 +6,7 @@
 #include "core/io/input_error.h"
 #include "core/io/temporary_files.h"
 #include "core/io/yaml_reader.h"
-#include "experiments/sequence/surveyed_truth.h"
+#include "experiments/sequence/sequence.h"
 #include "experiments/trial/cell_runner.h"
 
 namespace fenestra {

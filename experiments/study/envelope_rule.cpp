@@ -3,14 +3,19 @@
 #include <algorithm>
 
 #include "experiments/statistics/moments.h"
+#include "experiments/study/metric.h"
 
 namespace fenestra {
 
+double ShareOf(const Demand& demand) {
+  const Metric metric = FindMetric(demand.metric).value();
+  return metric.IsShare() ? demand.value : metric.level;
+}
+
 bool AllGoodSuffice(const EnvelopeRule& rule, int attempts) {
-  const Requirement& require = rule.require;
-  const double share = std::max(
-      {require.hit_rate, require.p50_error_mm ? 0.50 : 0.0, require.p95_error_mm ? 0.95 : 0.0});
-  return OneSidedLimits(attempts, attempts, rule.confidence).lower >= share;
+  const double lower = OneSidedLimits(attempts, attempts, rule.confidence).lower;
+  return std::all_of(rule.require.begin(), rule.require.end(),
+                     [lower](const Demand& demand) { return lower >= ShareOf(demand); });
 }
 
 }  // namespace fenestra

@@ -1,25 +1,29 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace fenestra {
 
-/// What a detector must achieve at a level to be of use there: each demand says that a share of all
-/// attempts is good. Over the attempts (target in view); a miss is never good.
-struct Requirement {
-  double hit_rate = 0.0;               ///< At least this share are hits; 0: not asked.
-  std::optional<double> p50_error_mm;  ///< At least half have at most this error.
-  std::optional<double> p95_error_mm;  ///< At least 95 % have.
+/// What a detector must achieve at a level to be of use there: a share (hit_rate) of at least this
+/// value, or a quantile of the error (p95_error_mm) of at most this value. Over the attempts
+/// (target in view); a miss is never good.
+struct Demand {
+  std::string metric;  ///< One of RequirementMetrics().
+  double value;        ///< In its unit.
 
-  bool operator==(const Requirement&) const = default;
+  bool operator==(const Demand&) const = default;
 };
+
+/// The share of the attempts that must be good for it: the value of a share, the level of a
+/// quantile.
+double ShareOf(const Demand& demand);
 
 /// A search for the levels of one factor at which a requirement holds, for each combination of all
 /// other levels.
 struct EnvelopeRule {
-  std::string over;  ///< A factor of the part with at least three levels, rising.
-  Requirement require;
+  std::string over;             ///< A factor of the part with at least three levels, rising.
+  std::vector<Demand> require;  ///< At least one; all of them must hold.
   double confidence = 0.95;
 
   bool operator==(const EnvelopeRule&) const = default;

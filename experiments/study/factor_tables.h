@@ -16,6 +16,7 @@ inline constexpr double kMilli = 1e-3;
 inline constexpr double kMicro = 1e-6;
 inline constexpr double kPercent = 1e-2;
 
+/// Where the rig stands and how it is turned.
 void AddViewpointFactors(FactorTable& table);
 /// The window and the wall, in every kind of scene.
 void AddSceneFactors(FactorTable& table);

@@ -9,7 +9,6 @@
 #include "experiments/sampling/causes.h"
 #include "experiments/sampling/gaussian_copula.h"
 #include "experiments/study_file/detector_reader.h"
-#include "experiments/study_file/name_reader.h"
 
 namespace fenestra {
 namespace {

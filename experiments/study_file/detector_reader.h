@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/detection/observation.h"
 #include "core/io/yaml_reader.h"
 #include "experiments/study/study.h"
 #include "vision/detector_registry.h"
@@ -48,5 +49,13 @@ std::vector<std::string> ReadCommand(YamlReader& reader, const YAML::Node& node)
 /// everything else, as well as everything in quotes, is text.
 std::optional<ParameterValue> ReadFreeValue(YamlReader& reader, const YAML::Node& node,
                                             const std::string& name);
+
+/// Reads "stereo" or "rgbd".
+std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node);
+
+/// Names of studies, parts and labels become folder names and table columns: [a-z0-9_-], at most
+/// 64 of them.
+std::optional<std::string> ReadName(YamlReader& reader, const YAML::Node& node,
+                                    const std::string& what);
 
 }  // namespace fenestra

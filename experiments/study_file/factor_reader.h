@@ -28,10 +28,13 @@ std::optional<std::variant<Levels, Distribution>> ReadFactorSetting(YamlReader& 
                                                                     const ParameterInfo& factor,
                                                                     const YAML::Node& node);
 
+/// The keys of the mappings above.
 inline const std::vector<std::string> kRangeKeys{"from", "to", "step", "count"};
 inline const std::vector<std::string> kDistributionKeys{"uniform", "log_uniform", "triangular",
                                                         "normal"};
 
+/// So little probability may lie beyond a factor's range: a study of 10⁶ trials would draw one
+/// value there.
 inline constexpr double kNegligibleMass = 1e-6;
 
 }  // namespace fenestra

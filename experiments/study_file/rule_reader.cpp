@@ -6,6 +6,7 @@
 
 #include "core/io/faults.h"
 #include "experiments/study/factors.h"
+#include "experiments/study/metric.h"
 
 namespace fenestra {
 namespace {
@@ -26,27 +27,24 @@ std::optional<double> ReadWithin(YamlReader& reader, const YAML::Node& node, con
   return std::nullopt;
 }
 
-std::optional<Requirement> ReadRequirement(YamlReader& reader, const YAML::Node& node) {
+std::optional<std::vector<Demand>> ReadRequirement(YamlReader& reader, const YAML::Node& node) {
   constexpr double kMostMm = 1e6;
-  if (!reader.CheckKeys(node, "require", kRequirementKeys)) return std::nullopt;
+  if (!reader.CheckKeys(node, "require", RequirementMetrics())) return std::nullopt;
   const size_t before = reader.fault_count();
-  Requirement requirement;
-  if (const YAML::Node rate = node["hit_rate"]; rate.IsDefined()) {
-    requirement.hit_rate =
-        ReadWithin(reader, rate, "hit_rate", {0.0, 1.0}, "a share greater than 0 and less than 1")
-            .value_or(0.0);
+  std::vector<Demand> demands;
+  for (const std::string& name : RequirementMetrics()) {
+    if (!node[name].IsDefined()) continue;
+    const bool is_share = FindMetric(name)->IsShare();
+    const auto number = ReadWithin(
+        reader, node[name], name.c_str(), {0.0, is_share ? 1.0 : kMostMm},
+        is_share ? "a share greater than 0 and less than 1" : "a length in mm greater than 0");
+    if (number) demands.push_back({name, *number});
   }
-  const auto read_error = [&](const char* key) -> std::optional<double> {
-    if (!node[key].IsDefined()) return std::nullopt;
-    return ReadWithin(reader, node[key], key, {0.0, kMostMm}, "a length in mm greater than 0");
-  };
-  requirement.p50_error_mm = read_error("p50_error_mm");
-  requirement.p95_error_mm = read_error("p95_error_mm");
-  if (reader.fault_count() == before && requirement == Requirement{}) {
-    reader.AddFault(
-        node, fmt::format("require needs at least one of {}", fmt::join(kRequirementKeys, ", ")));
+  if (reader.fault_count() == before && demands.empty()) {
+    reader.AddFault(node, fmt::format("require needs at least one of {}",
+                                      fmt::join(RequirementMetrics(), ", ")));
   }
-  return reader.IfSoundSince(before, requirement);
+  return reader.IfSoundSince(before, demands);
 }
 
 }  // namespace
@@ -59,15 +57,15 @@ std::optional<StoppingRule> ReadStoppingRule(YamlReader& reader, const YAML::Nod
     rule.first_look =
         static_cast<int>(reader.Integer(first, kFirstLook, 1, kMostFirstLook).value_or(1));
   }
-  for (const StoppingFigure figure : kAllStoppingFigures) {
-    const YAML::Node given = node[ToString(figure)];
+  for (const std::string& metric : StoppingMetrics()) {
+    const YAML::Node given = node[metric];
     if (!given.IsDefined()) continue;
-    const auto width = reader.Number(given, ToString(figure));
+    const auto width = reader.Number(given, metric.c_str());
     if (!width) continue;
-    rule.targets.push_back({figure, *width});
+    rule.targets.push_back({metric, *width});
     if (*width > 0.0) continue;
-    reader.AddFault(given, fmt::format("{} must be the width of an interval, greater than 0",
-                                       ToString(figure)));
+    reader.AddFault(given,
+                    fmt::format("{} must be the width of an interval, greater than 0", metric));
   }
   if (reader.fault_count() == before && rule.targets.empty()) {
     reader.AddFault(node,
@@ -79,8 +77,7 @@ std::optional<StoppingRule> ReadStoppingRule(YamlReader& reader, const YAML::Nod
 
 const std::vector<std::string>& StoppingKeys() {
   static const std::vector<std::string> keys = [] {
-    std::vector<std::string> names;
-    for (const StoppingFigure figure : kAllStoppingFigures) names.push_back(ToString(figure));
+    std::vector<std::string> names = StoppingMetrics();
     names.push_back(kFirstLook);
     return names;
   }();

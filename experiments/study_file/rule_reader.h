@@ -13,7 +13,7 @@ namespace fenestra {
 /// Reads `{hit_rate: 0.1, p95_error_mm: 20, first_look: 30}`; faults are noted in the reader.
 std::optional<StoppingRule> ReadStoppingRule(YamlReader& reader, const YAML::Node& node);
 
-/// The keys of a rule: every figure and first_look.
+/// The keys of a rule: StoppingMetrics() and first_look.
 const std::vector<std::string>& StoppingKeys();
 
 /// Reads {over: distance_m, require: {hit_rate: 0.95, p95_error_mm: 50}, confidence: 0.95}; faults
@@ -21,6 +21,5 @@ const std::vector<std::string>& StoppingKeys();
 std::optional<EnvelopeRule> ReadEnvelopeRule(YamlReader& reader, const YAML::Node& node);
 
 inline const std::vector<std::string> kEnvelopeKeys{"over", "require", "confidence"};
-inline const std::vector<std::string> kRequirementKeys{"hit_rate", "p50_error_mm", "p95_error_mm"};
 
 }  // namespace fenestra

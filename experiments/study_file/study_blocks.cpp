@@ -6,8 +6,8 @@
 
 #include "core/io/faults.h"
 #include "experiments/study/factors.h"
+#include "experiments/study_file/detector_reader.h"
 #include "experiments/study_file/factor_reader.h"
-#include "experiments/study_file/name_reader.h"
 #include "experiments/study_file/rule_reader.h"
 
 namespace fenestra {
@@ -64,6 +64,11 @@ const GivenFactor* StudyBlock::FindFactor(const std::string& name) const {
 const std::vector<std::string>& BlockKeys() {
   static const std::vector<std::string> keys{"repetitions", "sensors",  "detectors", "design",
                                              "until",       "envelope", "factors"};
+  return keys;
+}
+
+std::vector<std::string> WithBlockKeys(std::vector<std::string> keys) {
+  keys.insert(keys.end(), BlockKeys().begin(), BlockKeys().end());
   return keys;
 }
 

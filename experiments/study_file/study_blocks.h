@@ -36,6 +36,8 @@ struct StudyBlock {
 
 /// The keys that ReadBlock reads.
 const std::vector<std::string>& BlockKeys();
+/// These keys and, behind them, BlockKeys.
+std::vector<std::string> WithBlockKeys(std::vector<std::string> keys);
 
 /// Reads the keys in BlockKeys of a mapping; faults are noted in the reader.
 StudyBlock ReadBlock(YamlReader& reader, const YAML::Node& node,

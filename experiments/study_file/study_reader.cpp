@@ -4,31 +4,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <set>
 
-#include "experiments/study_file/factor_reader.h"
-#include "experiments/study_file/name_reader.h"
-#include "experiments/study_file/study_blocks.h"
+#include "experiments/study_file/detector_reader.h"
+#include "experiments/study_file/part_reader.h"
 #include "experiments/study_file/study_check.h"
 
 namespace fenestra {
 namespace {
-
-constexpr const char* kOnlyPart = "main";
-
-// A part while its study is read: what the study says for all parts, and what the part says.
-struct PartDraft {
-  std::string name;
-  StudyBlock common;
-  StudyBlock own;
-
-  bool sound() const { return common.sound && own.sound; }
-  /// Where the factor was given; nullptr for a default.
-  const GivenFactor* FindFactor(const std::string& factor) const {
-    const GivenFactor* given = own.FindFactor(factor);
-    return given != nullptr ? given : common.FindFactor(factor);
-  }
-};
 
 class StudyReader {
  public:
@@ -40,8 +22,10 @@ class StudyReader {
     reader_.CheckKeys(root, "the study", StudyKeys());
     if (!root.IsMap()) reader_.ThrowIfFaulty();
     Study study = ReadHead(root);
-    const std::vector<PartDraft> drafts = ReadDrafts(root);
-    for (const PartDraft& draft : drafts) study.parts.push_back(Resolve(draft));
+    const std::vector<PartDraft> drafts = ReadParts(reader_, known_);
+    for (const PartDraft& draft : drafts) {
+      study.parts.push_back(ResolvePart(reader_, draft, known_));
+    }
     CheckEffects(study, drafts);
     reader_.ThrowIfFaulty();
     CheckSize(study);
@@ -72,128 +56,6 @@ class StudyReader {
           reader_.Boolean(root["independent_cells"], "independent_cells").value_or(false);
     }
     return study;
-  }
-
-  std::vector<PartDraft> ReadDrafts(const YAML::Node& root) {
-    const StudyBlock common = ReadBlock(reader_, root, known_);
-    const YAML::Node parts = root["parts"];
-    StudyBlock nothing;
-    nothing.node = root;
-    if (!parts.IsDefined()) return {{kOnlyPart, nothing, common}};
-    if (!parts.IsSequence() || parts.size() == 0) {
-      reader_.AddFault(parts, fmt::format("parts must be a list of at least one part, not {}",
-                                          YamlReader::Describe(parts)));
-      return {};
-    }
-    std::vector<PartDraft> drafts;
-    std::set<std::string> names;
-    for (const YAML::Node& part : parts) {
-      reader_.CheckKeys(part, "a part", PartKeys());
-      if (!part.IsMap()) continue;
-      drafts.push_back({ReadPartName(part), common, ReadBlock(reader_, part, known_)});
-      if (!names.insert(drafts.back().name).second) {
-        reader_.AddFault(part["name"],
-                         fmt::format("two parts are called '{}'", drafts.back().name));
-      }
-    }
-    return drafts;
-  }
-
-  std::string ReadPartName(const YAML::Node& part) {
-    if (part["name"].IsDefined())
-      return ReadName(reader_, part["name"], "a part's name").value_or("");
-    reader_.AddFault(part, "a part needs a name");
-    return "";
-  }
-
-  StudyPart Resolve(const PartDraft& draft) {
-    StudyPart part{.name = draft.name,
-                   .sensors = {SensorKind::kStereo, SensorKind::kRgbd},
-                   .detectors = {},
-                   .factors = {},
-                   .repetitions = 1,
-                   .design = {}};
-    if (draft.common.sensors) part.sensors = *draft.common.sensors;
-    if (draft.own.sensors) part.sensors = *draft.own.sensors;
-    part.detectors = ResolveDetectors(draft, part.sensors);
-    part.factors = ResolveFactors(draft, part);
-    const auto& design = draft.own.design ? draft.own.design : draft.common.design;
-    if (design && draft.sound()) {
-      part.design = ResolveDesign(reader_, *design, part, draft.own.design.has_value());
-    }
-    const auto repetitions =
-        draft.own.repetitions ? draft.own.repetitions : draft.common.repetitions;
-    if (repetitions) {
-      part.repetitions = *repetitions;
-    } else if (draft.sound()) {
-      reader_.AddFault(draft.own.node, fmt::format("part '{}' needs repetitions: how many trials "
-                                                   "each cell gets",
-                                                   part.name));
-    }
-    part.until = draft.own.until ? draft.own.until : draft.common.until;
-    part.envelope = draft.own.envelope ? draft.own.envelope : draft.common.envelope;
-    if (draft.sound()) CheckRules(draft, part);
-    return part;
-  }
-
-  void CheckRules(const PartDraft& draft, const StudyPart& part) {
-    for (const std::string& objection : RuleObjections(part)) {
-      const bool own = draft.own.until || draft.own.envelope;
-      reader_.AddFault(own ? draft.own.node : reader_.root(),
-                       fmt::format("part '{}': {}", part.name, objection));
-    }
-  }
-
-  std::vector<DetectorChoice> ResolveDetectors(const PartDraft& draft,
-                                               const std::vector<SensorKind>& sensors) {
-    const auto used = [&sensors](SensorKind sensor) {
-      return std::find(sensors.begin(), sensors.end(), sensor) != sensors.end();
-    };
-    std::vector<DetectorChoice> detectors;
-    if (draft.own.detectors) {
-      for (const GivenDetector& given : *draft.own.detectors) {
-        detectors.push_back(given.choice);
-        if (used(given.choice.sensor) || !draft.sound()) continue;
-        reader_.AddFault(given.node,
-                         fmt::format("{} works on {}, which part '{}' does not use",
-                                     given.choice.name, ToString(given.choice.sensor), draft.name));
-      }
-    } else if (draft.common.detectors) {
-      for (const GivenDetector& given : *draft.common.detectors) {
-        if (used(given.choice.sensor)) detectors.push_back(given.choice);
-      }
-    } else {
-      for (const DetectorInfo& info : known_) {
-        if (used(info.sensor)) detectors.push_back(DefaultChoice(info));
-      }
-    }
-    for (const SensorKind sensor : sensors) {
-      const bool served = std::any_of(detectors.begin(), detectors.end(),
-                                      [sensor](const auto& d) { return d.sensor == sensor; });
-      if (served || !draft.sound()) continue;
-      reader_.AddFault(draft.own.node, fmt::format("part '{}' has no detector for its sensor {}",
-                                                   draft.name, ToString(sensor)));
-    }
-    return detectors;
-  }
-
-  // Given factors first, then the defaults of all others; only those that can have an effect.
-  std::vector<Factor> ResolveFactors(const PartDraft& draft, StudyPart part) {
-    std::set<std::string> placed;
-    const auto place = [&](const GivenFactor& given) {
-      const std::string& name = given.factor.name;
-      if (placed.insert(name).second) part.factors.push_back(draft.FindFactor(name)->factor);
-    };
-    for (const GivenFactor& given : draft.common.factors) place(given);
-    for (const GivenFactor& given : draft.own.factors) place(given);
-    for (const ParameterInfo& info : Factors().infos()) {
-      if (placed.contains(info.name)) continue;
-      part.factors.push_back({info.name, Levels{WrittenDefault(info)}});
-    }
-    std::vector<Factor> effective;
-    std::copy_if(part.factors.begin(), part.factors.end(), std::back_inserter(effective),
-                 [&part](const Factor& f) { return WhyWithoutEffect(f.name, part).empty(); });
-    return effective;
   }
 
   // A part's own factors must have an effect there; the study's, in some part.
@@ -277,21 +139,11 @@ class StudyReader {
   std::span<const DetectorInfo> known_;
 };
 
-std::vector<std::string> WithBlockKeys(std::vector<std::string> keys) {
-  keys.insert(keys.end(), BlockKeys().begin(), BlockKeys().end());
-  return keys;
-}
-
 }  // namespace
 
 const std::vector<std::string>& StudyKeys() {
   static const std::vector<std::string> keys = WithBlockKeys(
       {"fenestra_version", "name", "description", "seed", "independent_cells", "parts"});
-  return keys;
-}
-
-const std::vector<std::string>& PartKeys() {
-  static const std::vector<std::string> keys = WithBlockKeys({"name"});
   return keys;
 }
 

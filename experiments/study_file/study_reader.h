@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/io/yaml_reader.h"
 #include "experiments/study/study.h"
@@ -38,8 +40,7 @@ Study ReadStudy(YamlReader reader, std::span<const DetectorInfo> known_detectors
 Study ReadStudyFile(const std::filesystem::path& file,
                     std::span<const DetectorInfo> known_detectors);
 
-/// The keys of a study and of a part.
+/// The keys of a study.
 const std::vector<std::string>& StudyKeys();
-const std::vector<std::string>& PartKeys();
 
 }  // namespace fenestra

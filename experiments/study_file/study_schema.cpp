@@ -11,6 +11,7 @@
 #include "experiments/study_file/factor_reader.h"
 #include "experiments/study_file/rule_reader.h"
 #include "experiments/study_file/study_blocks.h"
+#include "experiments/study_file/part_reader.h"
 #include "experiments/study_file/study_reader.h"
 
 namespace fenestra {
@@ -214,8 +215,11 @@ Json UntilSchema() {
 Json EnvelopeSchema() {
   const Json share = {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 1}};
   const Json length = {{"type", "number"}, {"exclusiveMinimum", 0}};
-  Json require = Mapping(kRequirementKeys,
-                         {{"hit_rate", share}, {"p50_error_mm", length}, {"p95_error_mm", length}});
+  std::map<std::string, Json> demands;
+  for (const std::string& name : RequirementMetrics()) {
+    demands[name] = FindMetric(name)->IsShare() ? share : length;
+  }
+  Json require = Mapping(RequirementMetrics(), demands);
   require["minProperties"] = 1;
   return Mapping(kEnvelopeKeys,
                  {{"over", {{"enum", Factors().Names()}}},

@@ -81,8 +81,8 @@ std::string Text(const SamplingDesign& design) {
 
 std::string Text(const StoppingRule& rule) {
   std::string text = fmt::format("    until:\n      first_look: {}\n", rule.first_look);
-  for (const auto& [figure, width] : rule.targets) {
-    text += fmt::format("      {}: {}\n", ToString(figure), width);
+  for (const auto& [metric, width] : rule.targets) {
+    text += fmt::format("      {}: {}\n", metric, width);
   }
   return text;
 }
@@ -91,12 +91,9 @@ std::string Text(const EnvelopeRule& rule) {
   std::string text =
       fmt::format("    envelope:\n      over: {}\n      confidence: {}\n      require:\n",
                   rule.over, rule.confidence);
-  const Requirement& require = rule.require;
-  if (require.hit_rate > 0.0) text += fmt::format("        hit_rate: {}\n", require.hit_rate);
-  if (require.p50_error_mm)
-    text += fmt::format("        p50_error_mm: {}\n", *require.p50_error_mm);
-  if (require.p95_error_mm)
-    text += fmt::format("        p95_error_mm: {}\n", *require.p95_error_mm);
+  for (const auto& [metric, value] : rule.require) {
+    text += fmt::format("        {}: {}\n", metric, value);
+  }
   return text;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/geometry/calibration.h"
 #include "core/random/random_stream.h"
 #include "experiments/study/trial_settings.h"
 #include "experiments/trial/calibration_cache.h"
+#include "sim/stereo/board_session.h"
 #include "sim/stereo/stereo_rig.h"
 #include "vision/calibration/bundle_adjustment.h"
+#include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {
 
@@ -19,7 +22,15 @@ struct CalibratedRig {
   std::optional<PairMatrix> covariance;
 };
 
-/// Calibrates a rig that was just built. A pure function of all but the cache, which only saves
+/// Calibrates a rig that was just built, as the choice's source says:
+///
+///     kExact      the rig's own cameras
+///     kPerturbed  the rig's own cameras, the right one turned and shifted at random
+///     kBoards     bundle adjustment of simulated pictures of a board (CalibrateWithBoards)
+///     kStale      as kBoards, after which the right camera of the rig that flies is displaced
+///     kDesign     the cameras of the rig's design
+///
+/// A pure function of all but the cache, which only saves
 /// time. Throws InputError if a calibration with boards fails.
 CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
                          const RandomStream& calibration, const CalibrationCache& cache);
@@ -31,5 +42,18 @@ CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
 std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
                                                 const CalibrationChoice& choice,
                                                 const std::optional<PairMatrix>& boards);
+
+/// Calibrates a simulated rig as a real one is: pictures of a board through its own optics and
+/// noise (sim/stereo/board_session), corners, adjustment (vision/calibration). Nothing but the
+/// pictures goes from one to the other. Throws InputError if the pictures do not suffice.
+StereoCalibrationResult CalibrateWithBoards(const StereoRig& rig,
+                                            const BoardSessionOptions& session,
+                                            const RandomStream& stream);
+
+/// All that a calibration with the choice's boards depends on, as text: equal texts, equal results,
+/// with the same program. It names every factor of the stereo rig and its calibration, so that a
+/// new one is not forgotten.
+std::string ContentOf(const StereoRig& rig, const CalibrationChoice& choice,
+                      const RandomStream& stream);
 
 }  // namespace fenestra

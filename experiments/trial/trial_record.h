@@ -1,17 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <compare>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/detection/detection.h"
 #include "core/detection/observation.h"
 #include "core/detection/stage_log.h"
 #include "experiments/study/factors.h"
+#include "experiments/study/outcome.h"
 
 namespace fenestra {
 
@@ -22,31 +21,6 @@ struct TrialKey {
 
   auto operator<=>(const TrialKey&) const = default;
 };
-
-/// The outcome of one trial under one detector. The definitions are the same for all studies;
-/// ScoreDetection makes them, OutcomeDefinition prints them.
-enum class Outcome {
-  kHit,
-  kGross,
-  kWrongWindow,
-  kMissed,
-  kCrashed,
-  kOutOfView,
-  kFalseAlarm,
-  kClear,
-};
-
-inline constexpr std::array<Outcome, 8> kAllOutcomes = {
-    Outcome::kHit,     Outcome::kGross,     Outcome::kWrongWindow, Outcome::kMissed,
-    Outcome::kCrashed, Outcome::kOutOfView, Outcome::kFalseAlarm,  Outcome::kClear,
-};
-
-/// "hit", "gross", "wrong_window", "missed", "crashed", "out_of_view", "false_alarm", "clear".
-const char* ToString(Outcome outcome);
-/// The inverse of ToString; nullopt for any other word.
-std::optional<Outcome> ParseOutcome(std::string_view word);
-/// One sentence for the reader of a report.
-const char* OutcomeDefinition(Outcome outcome);
 
 /// A detection held against the truth. Frame C is the scored camera (see WindowEstimate); metres.
 struct Score {

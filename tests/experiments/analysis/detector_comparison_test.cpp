@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/random/random_stream.h"
+#include "experiments/report/detector_comparison_report.h"
 
 namespace fenestra {
 namespace {

@@ -28,7 +28,7 @@ Searched Search(size_t levels, const std::map<std::string, std::pair<size_t, siz
         at.resize(levels);
         const bool holds = range.first <= level && level <= range.second;
         EXPECT_FALSE(at[level].has_value()) << "run twice";
-        at[level] = holds ? RequirementVerdict::kHolds : RequirementVerdict::kFails;
+        at[level] = holds ? Verdict::kHolds : Verdict::kViolated;
       }
     }
   }

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "experiments/report/error_budget_report.h"
 #include "experiments/sampling/trial_sampler.h"
 #include "tests/experiments/study_file/study_text.h"
 

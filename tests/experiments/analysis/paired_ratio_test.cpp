@@ -68,6 +68,24 @@ TEST(PairedRatioTest, SeveralCellsCountByTheirGeometricMean) {
   EXPECT_NEAR(ratios.p95_error.value, 1.0, 1e-12);
 }
 
+// Cells that share their replicates are no independent witnesses: eight of them with equal pairs
+// tell no more than one.
+TEST(PairedRatioTest, CellsThatShareReplicatesDrawThemTogether) {
+  std::vector<ErrorPair> pairs = Pairs(1.1, 0.5, 60, RandomStream(10));
+  const Interval forgetful =
+      RatiosOf(std::vector<std::vector<ErrorPair>>(8, pairs), RandomStream(4)).rmse.interval90;
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].cluster = ClusterKey{.replicate = static_cast<int>(i)};
+  }
+  const Interval one = RatiosOf({&pairs, 1}, RandomStream(4)).rmse.interval90;
+  const Interval eight =
+      RatiosOf(std::vector<std::vector<ErrorPair>>(8, pairs), RandomStream(4)).rmse.interval90;
+  EXPECT_DOUBLE_EQ(eight.lower, one.lower);
+  EXPECT_DOUBLE_EQ(eight.upper, one.upper);
+  // √8 narrower, as if each cell had luck of its own.
+  EXPECT_LT(forgetful.upper - forgetful.lower, 0.5 * (one.upper - one.lower));
+}
+
 TEST(PairedRatioTest, MissesCountInTheQuantileAndNotInTheRmse) {
   std::vector<ErrorPair> pairs = Pairs(1.0, 0.0, 40, RandomStream(8));
   for (size_t i = 0; i < 4; ++i) pairs[i] = {kInfiniteRatio, pairs[i].base_error_m, false, true};

@@ -24,25 +24,32 @@ TrialRecord Missed() {
   return record;
 }
 
+// Rows are told apart by their trials.
+MetricRow Of(TrialRecord record) {
+  static int trial = 0;
+  record.trial = trial++;
+  return RowContext().Of(record);
+}
+
 const EnvelopeRule kRule{.over = "distance_m",
-                         .require = {.hit_rate = 0.95, .p50_error_mm = {}, .p95_error_mm = 50.0},
+                         .require = {{"hit_rate", 0.95}, {"p95_error_mm", 50.0}},
                          .confidence = 0.95};
 
 RequirementCount After(int hits, int misses, double error_m = 0.01) {
   RequirementCount count(kRule);
-  for (int i = 0; i < hits; ++i) count.Add(Hit(error_m));
-  for (int i = 0; i < misses; ++i) count.Add(Missed());
+  for (int i = 0; i < hits; ++i) count.Add(Of(Hit(error_m)));
+  for (int i = 0; i < misses; ++i) count.Add(Of(Missed()));
   return count;
 }
 
 // 0.95^59 = 4.85 %, 0.95^58 = 5.1 %: it takes 59 good attempts without a miss.
 TEST(RequirementCount, HoldsFromTheTextbooksNumberOfTrialsOn) {
-  EXPECT_EQ(After(58, 0).verdict(), RequirementVerdict::kUndecided);
-  EXPECT_EQ(After(59, 0).verdict(), RequirementVerdict::kHolds);
-  EXPECT_EQ(After(60, 1).verdict(), RequirementVerdict::kUndecided);
-  EXPECT_EQ(After(50, 10).verdict(), RequirementVerdict::kFails);
+  EXPECT_EQ(After(58, 0).verdict(), Verdict::kUndecided);
+  EXPECT_EQ(After(59, 0).verdict(), Verdict::kHolds);
+  EXPECT_EQ(After(60, 1).verdict(), Verdict::kUndecided);
+  EXPECT_EQ(After(50, 10).verdict(), Verdict::kViolated);
   EXPECT_EQ(After(200, 0, 0.06).verdict(),
-            RequirementVerdict::kFails);  // Hits, but not near enough.
+            Verdict::kViolated);  // Hits, but not near enough.
 }
 
 TEST(RequirementCount, CanNoLongerHoldOnceTooMuchIsLost) {
@@ -56,10 +63,10 @@ TEST(RequirementCount, OutOfViewIsNoAttempt) {
   RequirementCount count = After(59, 0);
   TrialRecord out = Missed();
   out.score.outcome = Outcome::kOutOfView;
-  count.Add(out);
+  count.Add(Of(out));
   EXPECT_EQ(count.trials(), 60);
   EXPECT_EQ(count.attempts(), 59);
-  EXPECT_EQ(count.verdict(), RequirementVerdict::kHolds);
+  EXPECT_EQ(count.verdict(), Verdict::kHolds);
 }
 
 // A detector that misses the requirement by nothing is passed in no more than 5 % of cells.
@@ -73,9 +80,9 @@ TEST(RequirementCount, ClaimsTooMuchNoMoreOftenThanItSays) {
     for (uint64_t i = 0; i < 100; ++i) {
       const bool hit = RandomStream(run).Uniform(i) < 0.95;
       good += hit ? 1 : 0;
-      count.Add(hit ? Hit(0.01) : Missed());
+      count.Add(Of(hit ? Hit(0.01) : Missed()));
     }
-    claimed += count.verdict() == RequirementVerdict::kHolds ? 1 : 0;
+    claimed += count.verdict() == Verdict::kHolds ? 1 : 0;
     naive += good >= 95 ? 1 : 0;
   }
   // At most 100 expected; standard deviation 9.7; four: 3e-5.

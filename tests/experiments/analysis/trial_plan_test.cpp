@@ -153,6 +153,7 @@ TEST(TrialPlan, ARunThatWasKilledEndsWithTheSameTrials) {
 TEST(TrialPlan, StoppingEarlyKeepsTheConfidence) {
   const Study study = ReadText(kUntil);
   const std::vector<Cell> cells = Cells(study);
+  const RowContext context(study, cells);
   int wrong = 0;
   constexpr int kRuns = 150;
   for (uint64_t seed = 0; seed < kRuns; ++seed) {
@@ -162,8 +163,7 @@ TEST(TrialPlan, StoppingEarlyKeepsTheConfidence) {
       for (int i = 0; i < trials; ++i) {
         hits += store.at({cell, i}).score.outcome == Outcome::kHit ? 1 : 0;
       }
-      const Interval interval =
-          ClopperPearson(hits, trials, SummaryConfidence(study, cells[static_cast<size_t>(cell)]));
+      const Interval interval = ClopperPearson(hits, trials, context.Confidence(cell));
       wrong += interval.lower <= 0.9 && 0.9 <= interval.upper ? 0 : 1;
     }
   }

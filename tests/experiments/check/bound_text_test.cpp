@@ -16,9 +16,9 @@ TEST(BoundText, EveryPartIsRead) {
       "p99.9(centroid_error_z_mm) <= 15 with confidence 0.9 in each cell where detector = "
       "edge-stereo and distance_m <= 3 and scene in [facade, paper_target]",
       0.95);
-  EXPECT_EQ(bound.figure.kind, Figure::Kind::kQuantile);
-  EXPECT_DOUBLE_EQ(bound.figure.level, 0.999);
-  EXPECT_EQ(bound.figure.quantity, Quantity::kErrorZ);
+  EXPECT_EQ(bound.metric.kind, Metric::Kind::kQuantile);
+  EXPECT_DOUBLE_EQ(bound.metric.level, 0.999);
+  EXPECT_EQ(bound.metric.quantity, Quantity::kErrorZ);
   EXPECT_TRUE(bound.is_upper);
   EXPECT_EQ(bound.limit, 15.0);
   EXPECT_EQ(bound.confidence, 0.9);
@@ -33,7 +33,7 @@ TEST(BoundText, EveryPartIsRead) {
 
 TEST(BoundText, BlanksDoNotMatter) {
   const Bound bound = ParseBound("rate( hit )>=0.98 where distance_m<4", 0.95);
-  EXPECT_EQ(bound.figure.kind, Figure::Kind::kRate);
+  EXPECT_EQ(bound.metric.kind, Metric::Kind::kRate);
   EXPECT_FALSE(bound.is_upper);
   EXPECT_EQ(bound.limit, 0.98);
   EXPECT_EQ(bound.confidence, 0.95);

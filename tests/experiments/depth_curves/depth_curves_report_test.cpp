@@ -1,7 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "experiments/depth_curves/depth_curves.h"
+#include "experiments/depth_curves/depth_curves_picture.h"
+#include "experiments/depth_curves/depth_curves_report.h"
 
 namespace fenestra {
 namespace {
@@ -20,7 +21,8 @@ StructuredLightOptions SmallSensor(DepthModel model) {
 TEST(DepthCurvesReportTest, BothModelsStandInOneReport) {
   const DepthCurves parametric =
       MeasureDepthCurves(SmallSensor(DepthModel::kParametric), RandomStream(1));
-  const DepthCurves speckle = MeasureDepthCurves(SmallSensor(DepthModel::kMatched), RandomStream(1));
+  const DepthCurves speckle =
+      MeasureDepthCurves(SmallSensor(DepthModel::kMatched), RandomStream(1));
   const std::string report =
       DepthCurvesMarkdown(SmallSensor(DepthModel::kParametric), parametric, speckle);
   EXPECT_NE(report.find("Khoshelham"), std::string::npos);

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "core/geometry/calibration.h"
-#include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {
@@ -149,11 +148,6 @@ TEST(CalibrationReport, WhatIsWrittenReadsBackAndRectifies) {
   const double baseline_m = result.calibration.X_RL.translation().norm();
   EXPECT_NEAR(-projection(right, 3) / projection(right, 0), baseline_m, 1e-9);
   EXPECT_NEAR(projection(right, 7), 0.0, 1e-9);
-}
-
-TEST(CalibrationReport, AFolderThatIsNotThereIsAnInputError) {
-  const TemporaryFolder folder;
-  EXPECT_THROW(WriteCalibration(folder / "none", Result(), {}), InputError);
 }
 
 }  // namespace

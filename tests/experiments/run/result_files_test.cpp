@@ -80,8 +80,8 @@ TEST_F(ResultFiles, AreRemovedWithThePicturesAndNothingElse) {
 
 TEST_F(ResultFiles, SummariesCountEveryRowOnce) {
   const std::vector<CellSummary> summaries = Summarise(Opened(folder_.path()));
-  EXPECT_EQ(summaries.size(), 3u * CellOf(MockStudy(5), 0).repetitions / 5u *
-                                  DetectorsOf(MockStudy(5), CellOf(MockStudy(5), 0)).size());
+  const Study study = MockStudy(5);
+  EXPECT_EQ(summaries.size(), 3 * DetectorsOf(study, CellOf(study, 0)).size());
 }
 
 TEST_F(ResultFiles, TheStudyIsReadFromTheStore) {

@@ -1,4 +1,4 @@
-#include "experiments/run/slurm_scripts.h"
+#include "experiments/run/shards.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

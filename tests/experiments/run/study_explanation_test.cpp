@@ -75,7 +75,7 @@ TEST(StudyExplanation, TheDesignSaysHowTrialsAreDrawn) {
       "  yaw_deg: {uniform: [-1, 1]}\n  roll_deg: {uniform: [-1, 1]}\n";
   EXPECT_EQ(Explained(ReadText(head)).at(0).design, "monte_carlo");
   EXPECT_THAT(Explained(ReadText(head + "design: {method: latin_hypercube, correlations: "
-                                        "[{factors: [yaw_deg, roll_deg], spearman: 0.5}]}\n"))
+                                        "[{between: [yaw_deg, roll_deg], spearman: 0.5}]}\n"))
                   .at(0)
                   .design,
               HasSubstr("latin_hypercube; Spearman's ρ of yaw_deg and roll_deg: 0.5"));

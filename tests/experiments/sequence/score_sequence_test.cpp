@@ -114,7 +114,7 @@ TEST_F(RecordedSequenceTest, DetectionsThatWereMadeElsewhereAreScoredAlike) {
   const auto summaries = ScoreSequence(
       {.sequence = sequence, .made = {ReadDetections("mine", file, 1)}, .out = folder_ / "scored"});
   ASSERT_EQ(summaries.size(), 1u);
-  EXPECT_NEAR(summaries[0].hit_errors->rmse, 0.01, 1e-12);
+  EXPECT_NEAR(summaries[0].Value("rmse_mm").value(), 10.0, 1e-9);
 
   EXPECT_THROW(ReadDetections("mine", file, 2), InputError);
   EXPECT_EQ(ReadDetections("mine", folder_.Write("two.json", json + json), 2).detections.size(),

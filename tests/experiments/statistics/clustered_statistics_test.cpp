@@ -37,6 +37,26 @@ TEST(ClusteredProportion, RowsThatRepeatEachOtherCountOnce) {
   EXPECT_EQ(Effective(std::vector<ClusterCount>(30, {4, 4})).trials, 30.0);
 }
 
+// 24 rows of each of 130 replicates without one success: bounded by 1 - 0.05^(1/130).
+TEST(ClusteredProportion, NoSuccessIsBoundedByTheNumberOfClusters) {
+  std::vector<ClusterCount> clusters(130, {0, 24});
+  EXPECT_NEAR(UpperProportionLimit(Effective(clusters), 0.95), 0.02278, 1e-5);
+  // 3,120 independent rows would bound it by 0.1 %.
+  EXPECT_NEAR(UpperProportionLimit({0.0, 3120.0}, 0.95), 0.00096, 1e-5);
+  // More alarms never bound it more closely, and fewer never less so from below.
+  double upper = 0.0;
+  for (ClusterCount& cluster : clusters) {
+    const double next = UpperProportionLimit(Effective(clusters), 0.95);
+    EXPECT_GE(next, upper - 1e-12);
+    upper = next;
+    cluster.successes = 1;
+  }
+  for (ClusterCount& cluster : clusters) cluster.successes = cluster.trials;
+  EXPECT_NEAR(LowerProportionLimit(Effective(clusters), 0.95), 1.0 - 0.02278, 1e-5);
+  clusters.front().successes = 23;
+  EXPECT_LE(LowerProportionLimit(Effective(clusters), 0.95), 1.0 - 0.02277);
+}
+
 /// How often, of `kRuns` simulated studies, a limit at confidence 0.95 is on the wrong side of p.
 /// Half of the variance of a row's success is its replicate's.
 constexpr int kRuns = 2000;
@@ -92,7 +112,7 @@ double MeanWrongSideRate(int replicates, int cells, bool know_clusters) {
         const double x = own.Normal(0) + own.Normal(static_cast<uint64_t>(c) + 1);
         if (!know_clusters) clusters.push_back({x, 1});
         sum.sum += x;
-        ++sum.rows;
+        ++sum.weight;
       }
       if (know_clusters) clusters.push_back(sum);
     }

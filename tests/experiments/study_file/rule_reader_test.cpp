@@ -26,8 +26,7 @@ TEST(StudyRules, AreReadWithTheirDefaults) {
   ASSERT_TRUE(stopping.parts[0].until.has_value());
   EXPECT_EQ(stopping.parts[0].until->first_look, 20);
   EXPECT_EQ(stopping.parts[0].until->targets,
-            (std::vector<StoppingRule::Target>{{StoppingFigure::kHitRate, 0.1},
-                                               {StoppingFigure::kBias, 2.0}}));
+            (std::vector<StoppingRule::Target>{{"hit_rate", 0.1}, {"bias_mm", 2.0}}));
   const Study searching = ReadText(StudyWithRule(Envelope("distance_m")));
   EXPECT_EQ(searching.parts[0].envelope->confidence, 0.95);
 }

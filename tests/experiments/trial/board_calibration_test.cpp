@@ -1,4 +1,4 @@
-#include "experiments/trial/board_calibration.h"
+#include "experiments/trial/calibrated_rig.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
-#include "experiments/trial/board_calibration.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {

@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "experiments/study/trial_settings.h"
-#include "experiments/trial/board_calibration.h"
+#include "experiments/trial/calibrated_rig.h"
 #include "sim/stereo/stereo_rig.h"
 #include "tests/support/temporary_folder.h"
 

@@ -100,7 +100,7 @@ TEST(BundleAdjustment, K3IsKeptUnlessItIsFree) {
   EXPECT_EQ(fixed.cofactor.row(8).norm(), 0.0);
   EXPECT_EQ(fixed.cofactor.col(kCameraParameters + 8).norm(), 0.0);
   const AdjustedPair free = AdjustPair(start, session.views, {}, {.free_k3 = true});
-  EXPECT_NEAR(free.state.cameras.left.parameters().distortion.k3, 0.0, 1e-5);
+  EXPECT_NEAR(free.state.cameras.left.parameters().distortion.k3, 0.0, 1e-4);
   EXPECT_GT(free.cofactor(8, 8), 0.0);
 }
 

@@ -8,7 +8,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cstdlib>
 
-#include "experiments/trial/board_calibration.h"
+#include "experiments/trial/calibrated_rig.h"
 #include "tests/vision/calibration/normalised_error.h"
 
 int main(int argc, char** argv) {

@@ -15,7 +15,7 @@ using ::testing::HasSubstr;
 
 // All faults of a document, or "".
 std::string FaultsIn(const json& document) {
-  FaultList faults("scene.gltf");
+  Faults faults("scene.gltf");
   CheckSchema(document, faults);
   try {
     faults.ThrowIfAny();

@@ -55,7 +55,7 @@ struct Facade {
   double inside_returns = 1.0;
 };
 
-std::vector<DepthPoint> Look(const Facade& facade, uint64_t seed = 1) {
+std::vector<DepthPoint> PointsSeenOf(const Facade& facade, uint64_t seed = 1) {
   const RandomStream stream(seed);
   std::vector<DepthPoint> points;
   uint64_t next = 0;
@@ -90,8 +90,8 @@ DepthPlane FirstGuess(const std::vector<DepthPoint>& points) {
 std::variant<FramePlanes, Miss> Measure(const Facade& facade,
                                         const FramePlaneSettings& settings = Settings(),
                                         const FrameRectangle& frame = Frame()) {
-  const std::vector<DepthPoint> points = Look(facade);
-  return MeasureFramePlanes(points, frame, FirstGuess(Look({})), Depth(), settings);
+  const std::vector<DepthPoint> points = PointsSeenOf(facade);
+  return MeasureFramePlanes(points, frame, FirstGuess(PointsSeenOf({})), Depth(), settings);
 }
 
 FramePlanes FoundPlanes(const std::variant<FramePlanes, Miss>& result) {

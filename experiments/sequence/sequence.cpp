@@ -1,4 +1,4 @@
-#include "experiments/sequence/surveyed_truth.h"
+#include "experiments/sequence/sequence.h"
 
 #include <fmt/format.h>
 
