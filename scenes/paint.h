@@ -25,8 +25,8 @@ struct Paint {
 /// Linear red, green and blue of a hue, scaled to a luminance of 1.
 glm::dvec3 HueRgb(Hue hue);
 
-/// The highest reflectance that a hue can have: above it, one of its colours would reflect more
-/// light than it receives.
+/// The highest reflectance that a hue can have. Above it, one of its three colours would have to
+/// reflect more light than it receives; 1 for grey.
 double MostReflectance(Hue hue);
 
 /// Adds a fault for reflectances beyond [0, 1] or beyond what the hue can have. `name` and

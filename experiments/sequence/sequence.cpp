@@ -1,6 +1,7 @@
 #include "experiments/sequence/sequence.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
 #include <vector>
 
@@ -58,9 +59,14 @@ std::vector<WindowTruth> ReadOthers(YamlReader& reader, const YAML::Node& node) 
   return others;
 }
 
-std::string WindowYaml(const WindowTruth& window) {
-  return fmt::format("centroid_m: [{}, {}, {}], width_m: {}, height_m: {}", window.p_CO.x(),
-                     window.p_CO.y(), window.p_CO.z(), window.width_m, window.height_m);
+// The entries of a window in a map. Numbers have the shortest form that reads back exactly, which
+// the emitter's own do not.
+YAML::Emitter& operator<<(YAML::Emitter& yaml, const WindowTruth& window) {
+  const auto shortest = [](double number) { return fmt::format("{}", number); };
+  yaml << "centroid_m" << YAML::BeginSeq;
+  for (const double coordinate_m : window.p_CO) yaml << shortest(coordinate_m);
+  yaml << YAML::EndSeq;
+  return yaml << "width_m" << shortest(window.width_m) << "height_m" << shortest(window.height_m);
 }
 
 }  // namespace
@@ -89,14 +95,17 @@ GroundTruth ReadSurveyedTruth(YamlReader& reader, const YAML::Node& node) {
 }
 
 std::string ToYaml(const GroundTruth& truth) {
-  std::string others;
+  if (!truth.target && truth.other_windows.empty()) return "none";
+  YAML::Emitter yaml;
+  yaml << YAML::Flow << YAML::BeginMap;
+  if (truth.target) yaml << *truth.target << "in_view" << truth.in_view;
+  if (!truth.other_windows.empty()) yaml << "other_windows" << YAML::BeginSeq;
   for (const WindowTruth& other : truth.other_windows) {
-    others += fmt::format("{}{{{}}}", others.empty() ? "" : ", ", WindowYaml(other));
+    yaml << YAML::BeginMap << other << YAML::EndMap;
   }
-  if (!others.empty()) others = fmt::format("other_windows: [{}]", others);
-  if (!truth.target) return others.empty() ? "none" : fmt::format("{{{}}}", others);
-  return fmt::format("{{{}, in_view: {}{}{}}}", WindowYaml(*truth.target), truth.in_view,
-                     others.empty() ? "" : ", ", others);
+  if (!truth.other_windows.empty()) yaml << YAML::EndSeq;
+  yaml << YAML::EndMap;
+  return yaml.c_str();
 }
 
 }  // namespace fenestra

@@ -1,133 +1,149 @@
 #include "experiments/study_file/study_writer.h"
 
 #include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
 
-#include "core/io/yaml_reader.h"
 #include "core/system/program.h"
 
 namespace fenestra {
 namespace {
 
-std::string Text(const UniformDistribution& d) {
-  return fmt::format("{{uniform: [{}, {}]}}", d.min, d.max);
+using YAML::BeginMap;
+using YAML::BeginSeq;
+using YAML::Emitter;
+using YAML::EndMap;
+using YAML::EndSeq;
+using YAML::Flow;
+
+// The shortest form that reads back exactly, which the emitter's own is not.
+std::string Shortest(double number) {
+  return fmt::format("{}", number);
 }
 
-std::string Text(const LogUniformDistribution& d) {
-  return fmt::format("{{log_uniform: [{}, {}]}}", d.min, d.max);
+Emitter& operator<<(Emitter& yaml, const UniformDistribution& d) {
+  return yaml << "uniform" << std::vector{Shortest(d.min), Shortest(d.max)};
 }
 
-std::string Text(const TriangularDistribution& d) {
-  return fmt::format("{{triangular: {{min: {}, mode: {}, max: {}}}}}", d.min, d.mode, d.max);
+Emitter& operator<<(Emitter& yaml, const LogUniformDistribution& d) {
+  return yaml << "log_uniform" << std::vector{Shortest(d.min), Shortest(d.max)};
 }
 
-std::string Text(const TruncatedNormalDistribution& d) {
-  return fmt::format("{{normal: {{mean: {}, sd: {}, min: {}, max: {}}}}}", d.mean, d.sd, d.min,
-                     d.max);
+Emitter& operator<<(Emitter& yaml, const TriangularDistribution& d) {
+  return yaml << "triangular" << BeginMap << "min" << Shortest(d.min) << "mode" << Shortest(d.mode)
+              << "max" << Shortest(d.max) << EndMap;
 }
 
-std::string Text(const Distribution& distribution) {
-  return std::visit([](const auto& d) { return Text(d); }, distribution);
+Emitter& operator<<(Emitter& yaml, const TruncatedNormalDistribution& d) {
+  return yaml << "normal" << BeginMap << "mean" << Shortest(d.mean) << "sd" << Shortest(d.sd)
+              << "min" << Shortest(d.min) << "max" << Shortest(d.max) << EndMap;
 }
 
-std::string Text(const Levels& levels) {
-  if (levels.size() == 1) return ToString(levels.front());
-  std::string text;
-  for (const ParameterValue& level : levels) text += (text.empty() ? "" : ", ") + ToString(level);
-  return "[" + text + "]";
+void Write(Emitter& yaml, const Distribution& distribution) {
+  yaml << Flow << BeginMap;
+  std::visit([&yaml](const auto& d) { yaml << d; }, distribution);
+  yaml << EndMap;
 }
 
-std::string Text(const DetectorProcess& process, SensorKind sensor) {
-  std::string text;
-  if (process.command.empty()) {
-    text = "        isolate: true\n";
+void Write(Emitter& yaml, const Levels& levels) {
+  std::vector<std::string> words;
+  for (const ParameterValue& level : levels) words.push_back(ToString(level));
+  if (words.size() == 1) {
+    yaml << words.front();
   } else {
-    std::string words;
-    for (const std::string& word : process.command) {
-      words += (words.empty() ? "" : ", ") + YamlQuoted(word);
-    }
-    text = fmt::format("        command: [{}]\n        sensor: {}\n", words, ToString(sensor));
+    yaml << Flow << words;
   }
-  return text + fmt::format("        time_limit_s: {}\n        start_limit_s: {}\n",
-                            process.time_limit_s, process.start_limit_s);
 }
 
-std::string Text(const DetectorChoice& detector) {
-  std::string text =
-      fmt::format("      - name: {}\n        label: {}\n", detector.name, detector.label);
-  text += detector.process ? Text(*detector.process, detector.sensor) : "        isolate: false\n";
-  text += detector.options.empty() ? "        options: {}\n" : "        options:\n";
-  const bool quoted = detector.process && !detector.process->command.empty();
+void Write(Emitter& yaml, const std::variant<Levels, Distribution>& setting) {
+  std::visit([&yaml](const auto& s) { Write(yaml, s); }, setting);
+}
+
+Emitter& operator<<(Emitter& yaml, const DetectorChoice& detector) {
+  yaml << BeginMap << "name" << detector.name << "label" << detector.label;
+  const auto& process = detector.process;
+  const bool has_command = process && !process->command.empty();
+  if (has_command) {
+    yaml << "command" << Flow << BeginSeq;
+    for (const std::string& word : process->command) yaml << YAML::DoubleQuoted << word;
+    yaml << EndSeq << "sensor" << ToString(detector.sensor);
+  } else {
+    yaml << "isolate" << process.has_value();
+  }
+  if (process) {
+    yaml << "time_limit_s" << Shortest(process->time_limit_s);
+    yaml << "start_limit_s" << Shortest(process->start_limit_s);
+  }
+  yaml << "options";
+  if (detector.options.empty()) yaml << Flow;
+  yaml << BeginMap;
   for (const auto& [option, value] : detector.options) {
-    const std::string* word = std::get_if<std::string>(&value);
-    text += fmt::format("          {}: {}\n", option,
-                        quoted && word != nullptr ? YamlQuoted(*word) : ToString(value));
+    yaml << option;
+    if (has_command && std::holds_alternative<std::string>(value)) yaml << YAML::DoubleQuoted;
+    yaml << ToString(value);
   }
-  return text;
+  return yaml << EndMap << EndMap;
 }
 
-std::string Text(const SamplingDesign& design) {
-  std::string text = fmt::format("    design:\n      method: {}\n", ToString(design.method));
-  if (!design.correlations.empty()) text += "      correlations:\n";
+Emitter& operator<<(Emitter& yaml, const SamplingDesign& design) {
+  yaml << BeginMap << "method" << ToString(design.method);
+  if (!design.correlations.empty()) yaml << "correlations" << BeginSeq;
   for (const FactorCorrelation& c : design.correlations) {
-    text += fmt::format("        - {{between: [{}, {}], spearman: {}}}\n", c.first, c.second,
-                        c.spearman);
+    yaml << Flow << BeginMap << "between" << std::vector{c.first, c.second} << "spearman"
+         << Shortest(c.spearman) << EndMap;
   }
-  if (!design.causes.empty()) text += "      causes:\n";
-  for (const Cause& cause : design.causes) {
-    text += fmt::format("        {}: [{}]\n", cause.name, fmt::join(cause.sources, ", "));
-  }
-  return text;
+  if (!design.correlations.empty()) yaml << EndSeq;
+  if (!design.causes.empty()) yaml << "causes" << BeginMap;
+  for (const Cause& cause : design.causes) yaml << cause.name << Flow << cause.sources;
+  if (!design.causes.empty()) yaml << EndMap;
+  return yaml << EndMap;
 }
 
-std::string Text(const StoppingRule& rule) {
-  std::string text = fmt::format("    until:\n      first_look: {}\n", rule.first_look);
-  for (const auto& [metric, width] : rule.targets) {
-    text += fmt::format("      {}: {}\n", metric, width);
-  }
-  return text;
+Emitter& operator<<(Emitter& yaml, const StoppingRule& rule) {
+  yaml << BeginMap << "first_look" << rule.first_look;
+  for (const auto& [metric, width] : rule.targets) yaml << metric << Shortest(width);
+  return yaml << EndMap;
 }
 
-std::string Text(const EnvelopeRule& rule) {
-  std::string text =
-      fmt::format("    envelope:\n      over: {}\n      confidence: {}\n      require:\n",
-                  rule.over, rule.confidence);
-  for (const auto& [metric, value] : rule.require) {
-    text += fmt::format("        {}: {}\n", metric, value);
-  }
-  return text;
+Emitter& operator<<(Emitter& yaml, const EnvelopeRule& rule) {
+  yaml << BeginMap << "over" << rule.over << "confidence" << Shortest(rule.confidence);
+  yaml << "require" << BeginMap;
+  for (const auto& [metric, value] : rule.require) yaml << metric << Shortest(value);
+  return yaml << EndMap << EndMap;
 }
 
-std::string Text(const StudyPart& part) {
-  std::string sensors;
-  for (const SensorKind sensor : part.sensors) {
-    sensors += (sensors.empty() ? "" : ", ") + std::string(ToString(sensor));
-  }
-  std::string text = fmt::format("  - name: {}\n    repetitions: {}\n    sensors: [{}]\n",
-                                 part.name, part.repetitions, sensors);
-  text += Text(part.design);
-  if (part.until) text += Text(*part.until);
-  if (part.envelope) text += Text(*part.envelope);
-  text += "    detectors:\n";
-  for (const DetectorChoice& detector : part.detectors) text += Text(detector);
-  text += "    factors:\n";
+Emitter& operator<<(Emitter& yaml, const StudyPart& part) {
+  yaml << BeginMap << "name" << part.name << "repetitions" << part.repetitions;
+  yaml << "sensors" << Flow << BeginSeq;
+  for (const SensorKind sensor : part.sensors) yaml << ToString(sensor);
+  yaml << EndSeq << "design" << part.design;
+  if (part.until) yaml << "until" << *part.until;
+  if (part.envelope) yaml << "envelope" << *part.envelope;
+  yaml << "detectors" << BeginSeq;
+  for (const DetectorChoice& detector : part.detectors) yaml << detector;
+  yaml << EndSeq << "factors" << BeginMap;
   for (const Factor& factor : part.factors) {
-    text += fmt::format("      {}: {}\n", factor.name, ToYaml(factor.setting));
+    yaml << factor.name;
+    Write(yaml, factor.setting);
   }
-  return text;
+  return yaml << EndMap << EndMap;
 }
 
 }  // namespace
 
 std::string ToYaml(const std::variant<Levels, Distribution>& setting) {
-  return std::visit([](const auto& s) { return Text(s); }, setting);
+  Emitter yaml;
+  Write(yaml, setting);
+  return yaml.c_str();
 }
 
 std::string ToYaml(const Study& study) {
-  std::string text = fmt::format(
-      "fenestra_version: {}\nname: {}\ndescription: {}\nseed: {}\nindependent_cells: {}\nparts:\n",
-      Version(), study.name, YamlQuoted(study.description), study.seed, study.independent_cells);
-  for (const StudyPart& part : study.parts) text += Text(part);
-  return text;
+  Emitter yaml;
+  yaml << BeginMap << "fenestra_version" << Version() << "name" << study.name;
+  yaml << "description" << YAML::DoubleQuoted << study.description << "seed" << study.seed;
+  yaml << "independent_cells" << study.independent_cells << "parts" << BeginSeq;
+  for (const StudyPart& part : study.parts) yaml << part;
+  yaml << EndSeq << EndMap;
+  return std::string(yaml.c_str()) + "\n";
 }
 
 }  // namespace fenestra

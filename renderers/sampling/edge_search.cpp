@@ -13,9 +13,8 @@ constexpr int kBorders = 4;
 // A probe nearer than this to the edge that the lines have found may be on either side of it.
 constexpr float kNear = 1.0f / 64.0f;
 
-// Layout of an edge search: a number of lines, which share the lanes of a packet. A third thing
-// that turns up once the edge is known to within kSliverIn is a sliver along the edge, as the rim
-// of a frame that a pane lies flush with; it is counted with what is behind it.
+// Lines, which share the lanes of a packet. A third thing that turns up when the edge is known to
+// within kSliverIn is a sliver along it, as a frame's rim; it is counted with what is behind it.
 template <int lines>
 struct Search {
   static constexpr int kLines = lines;
@@ -30,9 +29,8 @@ struct Fine : Search<16> {
 };
 struct Quick : Search<4> {
   static constexpr int kProbes = 16;
-  static constexpr bool kAlwaysProbes =
-      false;                        // The first points on the lines are all over it too.
-  static constexpr int kSteps = 3;  // To a fifth each time.
+  static constexpr bool kAlwaysProbes = false;  // The first points on the lines are all over it.
+  static constexpr int kSteps = 3;              // To a fifth each time.
   static constexpr int kGrid = 125;
   static constexpr float kSliverIn = 1.0f / 24.0f;
 };

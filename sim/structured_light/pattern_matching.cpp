@@ -124,11 +124,6 @@ void BlockStatistics(const cv::Mat1i& image, int reach_u, int reach_v, cv::Mat1i
 
 }  // namespace
 
-double PatternMatchingOptions::SearchEnd(const DisparityRange& range) const {
-  constexpr double kRoom_px = 2.0;
-  return std::max(search_px, range.focal_times_baseline / range.nearest_m + kRoom_px);
-}
-
 void Validate(const PatternMatchingOptions& o) {
   Faults faults("speckle matching");
   for (const int side : {o.block_width_px, o.block_height_px}) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <opencv2/core.hpp>
 #include <optional>
@@ -35,7 +36,10 @@ struct PatternMatchingOptions {
 
   /// The largest disparity that is searched [px of a 640-wide image]: with room for noise, and for
   /// the neighbours that the vertex needs.
-  double SearchEnd(const DisparityRange& range) const;
+  double SearchEnd(const DisparityRange& range) const {
+    constexpr double kRoom_px = 2.0;
+    return std::max(search_px, range.focal_times_baseline / range.nearest_m + kRoom_px);
+  }
 };
 
 /// Throws InputError with all faults.

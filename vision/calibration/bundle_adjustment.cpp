@@ -1,10 +1,10 @@
 #include "vision/calibration/bundle_adjustment.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 #include "core/io/input_error.h"
 #include "core/system/check.h"
@@ -12,186 +12,195 @@
 namespace fenestra {
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector2d;
+using Eigen::Map;
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using PoseVector = Eigen::Matrix<double, 6, 1>;
-using PoseMatrix = Eigen::Matrix<double, 6, 6>;
+using CameraVector = Eigen::Matrix<double, kCameraParameters, 1>;
+/// A pose as Ceres holds it: unit quaternion and translation.
+using PoseVector = Eigen::Matrix<double, 7, 1>;
+using PoseStep = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kRight = kCameraParameters;
 constexpr int kRelative = 2 * kCameraParameters;
 constexpr int kK3 = 8;
 
-Matrix3d Cross(const Vector3d& a) {
-  Matrix3d matrix;
-  matrix << 0.0, -a.z(), a.y(), a.z(), 0.0, -a.x(), -a.y(), a.x(), 0.0;
-  return matrix;
+PoseVector ToVector(const Pose& X) {
+  PoseVector vector;
+  vector << Quaterniond(X.rotation()).normalized().coeffs(), X.translation();
+  return vector;
 }
 
-// exp(δ) R and t + dt.
-Pose Moved(const Pose& X, const PoseVector& step) {
-  const Eigen::Quaterniond rotation(RotationFromVector(step.head<3>()) * X.rotation());
-  return Pose(rotation.normalized().toRotationMatrix(), X.translation() + step.tail<3>());
+Pose ToPose(const double* vector) {
+  return Pose(Quaterniond(vector).toRotationMatrix(), Vector3d(vector + 4));
 }
+
+// Steps (δ, dt) lead from R and t to exp(δ) R and t + dt. Derivatives by a pose are given by its
+// step, in the first six of seven columns; the last one is 0.
+class PoseManifold final : public ceres::Manifold {
+ public:
+  int AmbientSize() const override { return PoseVector::SizeAtCompileTime; }
+  int TangentSize() const override { return PoseStep::SizeAtCompileTime; }
+
+  bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
+    const Pose X = ToPose(x);
+    const Map<const PoseStep> step(delta);
+    if (!step.allFinite()) return false;
+    Map<PoseVector> moved(x_plus_delta);
+    moved = ToVector(
+        Pose(RotationFromVector(step.head<3>()) * X.rotation(), X.translation() + step.tail<3>()));
+    return true;
+  }
+  bool PlusJacobian(const double* /*x*/, double* jacobian) const override {
+    Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> by_step(jacobian);
+    by_step.setIdentity();
+    return true;
+  }
+  // Least squares with derivatives do without differences of poses.
+  bool Minus(const double*, const double*, double*) const override { return false; }
+  bool MinusJacobian(const double*, double*) const override { return false; }
+};
 
 // Derivative of exp(δ) (R q) + t by (δ, t), with turned = R q.
 Eigen::Matrix<double, 3, 6> ByPose(const Vector3d& turned) {
   Eigen::Matrix<double, 3, 6> by_pose;
-  by_pose << -Cross(turned), Matrix3d::Identity();
+  by_pose << -CrossMatrix(turned), Eigen::Matrix3d::Identity();
   return by_pose;
 }
 
-// Normal equations: [A B; Bᵀ C] with one block C, and one of B's columns, for each view.
-struct NormalEquations {
-  explicit NormalEquations(size_t views)
-      : B(views, Eigen::Matrix<double, kPairParameters, 6>::Zero()),
-        C(views, PoseMatrix::Zero()),
-        view_vector(views, PoseVector::Zero()) {}
+// Residuals √w (pixel - projection) of the corners that one camera saw in one view, by the camera's
+// parameters, X_LG and, of the right camera, X_RL. Fails if a corner has no projection.
+class CornersCost final : public ceres::CostFunction {
+ public:
+  CornersCost(const CameraModel& camera, bool is_right, const std::vector<BoardCorner>& corners,
+              double weight, const CalibrationBoard& board)
+      : camera_(camera),
+        is_right_(is_right),
+        corners_(corners),
+        root_weight_(std::sqrt(weight)),
+        board_(board) {
+    set_num_residuals(2 * static_cast<int>(corners.size()));
+    *mutable_parameter_block_sizes() = {kCameraParameters, 7};
+    if (is_right) mutable_parameter_block_sizes()->push_back(7);
+  }
 
-  PairMatrix A = PairMatrix::Zero();
-  PairVector vector = PairVector::Zero();
-  std::vector<Eigen::Matrix<double, kPairParameters, 6>> B;
-  std::vector<PoseMatrix> C;
-  std::vector<PoseVector> view_vector;
-  double squared_residuals = 0.0;
-  int residual_count = 0;
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const Map<const CameraVector> vector(parameters[0]);
+    if (!vector.allFinite() || vector[0] <= 0.0 || vector[1] <= 0.0) return false;
+    const CameraModel camera = camera_.WithParameters(vector);
+    const Pose X_LG = ToPose(parameters[1]);
+    const Pose X_CL = is_right_ ? ToPose(parameters[2]) : Pose();
+    for (size_t i = 0; i < corners_.size(); ++i) {
+      const Vector3d turned = X_LG.rotation() * board_.Corner(corners_[i].id);
+      const Vector3d p_LQ = turned + X_LG.translation();
+      const auto seen = camera.Linearise(X_CL * p_LQ);
+      if (!seen) return false;
+      Map<Eigen::Vector2d> residual(residuals + 2 * i);
+      residual = root_weight_ * (corners_[i].pixel - seen->pixel);
+      if (jacobians == nullptr) continue;
+      SetDerivative(i, 9, seen->by_parameters, jacobians[0]);
+      SetDerivative(i, 7, seen->by_point * X_CL.rotation() * ByPose(turned), jacobians[1]);
+      if (!is_right_) continue;
+      SetDerivative(i, 7, seen->by_point * ByPose(X_CL.rotation() * p_LQ), jacobians[2]);
+    }
+    return true;
+  }
+
+ private:
+  // `jacobian`: the rows of all corners, or null where Ceres does not ask for it.
+  template <typename Derivative>
+  void SetDerivative(size_t corner, int columns, const Derivative& of_pixel,
+                     double* jacobian) const {
+    if (jacobian == nullptr) return;
+    Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>> rows(
+        jacobian + 2 * corner * static_cast<size_t>(columns), 2, columns);
+    rows.setZero();
+    rows.leftCols(of_pixel.cols()) = -root_weight_ * of_pixel;
+  }
+
+  CameraModel camera_;
+  bool is_right_;
+  const std::vector<BoardCorner>& corners_;
+  double root_weight_;
+  const CalibrationBoard& board_;
 };
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Adds the corners that one camera saw in one view. Returns false if a corner has no projection.
-bool AddCorners(const PairState& state, size_t view, bool is_right, const BoardView& seen_in,
-                const CalibrationBoard& board, NormalEquations& equations) {
-  const std::vector<BoardCorner>& corners = is_right ? seen_in.right : seen_in.left;
-  const double weight = is_right ? seen_in.right_weight : seen_in.left_weight;
-  const CameraModel& camera = is_right ? state.cameras.right : state.cameras.left;
-  const Pose& X_LG = state.X_LG[view];
-  const Pose& X_RL = state.cameras.X_RL;
-  for (const BoardCorner& corner : corners) {
-    const Vector3d turned = X_LG.rotation() * board.Corner(corner.id);
-    const Vector3d p_LQ = turned + X_LG.translation();
-    const auto seen = camera.Linearise(is_right ? X_RL * p_LQ : p_LQ);
-    if (!seen) return false;
-    Eigen::Matrix<double, 2, kPairParameters> by_pair =
-        Eigen::Matrix<double, 2, kPairParameters>::Zero();
-    Eigen::Matrix<double, 2, 6> by_view = seen->by_point * ByPose(turned);
-    if (is_right) {
-      by_pair.middleCols<kCameraParameters>(kRight) = seen->by_parameters;
-      by_pair.rightCols<6>() = seen->by_point * ByPose(X_RL.rotation() * p_LQ);
-      by_view = seen->by_point * X_RL.rotation() * ByPose(turned);
-    } else {
-      by_pair.leftCols<kCameraParameters>() = seen->by_parameters;
+// The parameters where Ceres changes them, and the residuals that depend on them.
+class PairProblem {
+ public:
+  PairProblem(const PairState& start, const std::vector<BoardView>& views,
+              const CalibrationBoard& board, const AdjustmentOptions& options)
+      : start_(start),
+        left_(start.cameras.left.ParameterVector()),
+        right_(start.cameras.right.ParameterVector()),
+        X_RL_(ToVector(start.cameras.X_RL)) {
+    for (CameraVector* camera : {&left_, &right_}) {
+      problem_.AddParameterBlock(
+          camera->data(), kCameraParameters,
+          options.free_k3 ? nullptr : new ceres::SubsetManifold(kCameraParameters, {kK3}));
     }
-    const Vector2d residual = corner.pixel - seen->pixel;
-    equations.A += weight * by_pair.transpose() * by_pair;
-    equations.vector += weight * by_pair.transpose() * residual;
-    equations.B[view] += weight * by_pair.transpose() * by_view;
-    equations.C[view] += weight * by_view.transpose() * by_view;
-    equations.view_vector[view] += weight * by_view.transpose() * residual;
-    equations.squared_residuals += weight * residual.squaredNorm();
-    equations.residual_count += 2;
-  }
-  return true;
-}
-
-NormalEquations Linearise(const PairState& state, const std::vector<BoardView>& views,
-                          const CalibrationBoard& board) {
-  NormalEquations equations(views.size());
-  for (size_t i = 0; i < views.size(); ++i) {
-    if (!AddCorners(state, i, false, views[i], board, equations) ||
-        !AddCorners(state, i, true, views[i], board, equations)) {
-      equations.squared_residuals = kInfinity;
-      break;
+    problem_.AddParameterBlock(X_RL_.data(), 7, new PoseManifold);
+    for (const Pose& X_LG : start.X_LG) X_LG_.push_back(ToVector(X_LG));
+    for (size_t i = 0; i < views.size(); ++i) {
+      const BoardView& view = views[i];
+      problem_.AddParameterBlock(X_LG_[i].data(), 7, new PoseManifold);
+      if (!view.left.empty()) {
+        problem_.AddResidualBlock(
+            new CornersCost(start.cameras.left, false, view.left, view.left_weight, board), nullptr,
+            left_.data(), X_LG_[i].data());
+      }
+      if (!view.right.empty()) {
+        problem_.AddResidualBlock(
+            new CornersCost(start.cameras.right, true, view.right, view.right_weight, board),
+            nullptr, right_.data(), X_LG_[i].data(), X_RL_.data());
+      }
     }
   }
-  return equations;
-}
 
-// Parameters that are not adjusted are eliminated by a unit row and column.
-void Fix(int parameter, PairMatrix& matrix, PairVector& vector) {
-  matrix.row(parameter).setZero();
-  matrix.col(parameter).setZero();
-  matrix(parameter, parameter) = 1.0;
-  vector[parameter] = 0.0;
-}
+  ceres::Solver::Summary Minimise() {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;  // Eliminates the board poses.
+    options.max_num_iterations = 100;
+    options.function_tolerance = 1e-12;  // Relative change of the sum of squares.
+    options.gradient_tolerance = 0.0;
+    options.parameter_tolerance = 0.0;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem_, &summary);
+    return summary;
+  }
 
-struct Reduced {
-  PairMatrix matrix;
-  PairVector vector;
+  PairState State() const {
+    PairState state = start_;
+    state.cameras = {.left = start_.cameras.left.WithParameters(left_),
+                     .right = start_.cameras.right.WithParameters(right_),
+                     .X_RL = ToPose(X_RL_.data())};
+    for (size_t i = 0; i < X_LG_.size(); ++i) state.X_LG[i] = ToPose(X_LG_[i].data());
+    return state;
+  }
+
+  PairMatrix Cofactor() {
+    ceres::Covariance covariance{ceres::Covariance::Options()};
+    const std::vector<const double*> blocks = {left_.data(), right_.data(), X_RL_.data()};
+    if (!covariance.Compute(blocks, &problem_)) {
+      throw InputError("calibration",
+                       "the views do not determine the cameras: the board has to be tilted in "
+                       "different directions, near and far");
+    }
+    // X_RL's seventh row and column are 0.
+    Eigen::Matrix<double, kPairParameters + 1, kPairParameters + 1> all;
+    FENESTRA_CHECK(covariance.GetCovarianceMatrix(blocks, all.data()), "no covariance");
+    return all.topLeftCorner<kPairParameters, kPairParameters>();
+  }
+
+ private:
+  PairState start_;
+  CameraVector left_;
+  CameraVector right_;
+  PoseVector X_RL_;
+  std::vector<PoseVector> X_LG_;
+  ceres::Problem problem_;
 };
-
-// Schur complement of the board poses; `damping` multiplies the diagonal.
-Reduced Reduce(const NormalEquations& equations, double damping, const AdjustmentOptions& options) {
-  Reduced reduced{equations.A, equations.vector};
-  reduced.matrix.diagonal() *= 1.0 + damping;
-  for (size_t i = 0; i < equations.C.size(); ++i) {
-    PoseMatrix C = equations.C[i];
-    C.diagonal() *= 1.0 + damping;
-    const Eigen::LDLT<PoseMatrix> factor(C);
-    const Eigen::Matrix<double, 6, kPairParameters> weights =
-        factor.solve(equations.B[i].transpose());
-    reduced.matrix -= equations.B[i] * weights;
-    reduced.vector -= weights.transpose() * equations.view_vector[i];
-  }
-  if (!options.free_k3) {
-    Fix(kK3, reduced.matrix, reduced.vector);
-    Fix(kRight + kK3, reduced.matrix, reduced.vector);
-  }
-  return reduced;
-}
-
-PairState Stepped(const PairState& state, const NormalEquations& equations, double damping,
-                  const PairVector& step) {
-  PairState stepped = state;
-  StereoCalibration& cameras = stepped.cameras;
-  cameras.left =
-      cameras.left.WithParameters(cameras.left.ParameterVector() + step.head<kCameraParameters>());
-  cameras.right = cameras.right.WithParameters(cameras.right.ParameterVector() +
-                                               step.segment<kCameraParameters>(kRight));
-  cameras.X_RL = Moved(cameras.X_RL, step.segment<6>(kRelative));
-  for (size_t i = 0; i < stepped.X_LG.size(); ++i) {
-    PoseMatrix C = equations.C[i];
-    C.diagonal() *= 1.0 + damping;
-    const PoseVector rest = equations.view_vector[i] - equations.B[i].transpose() * step;
-    stepped.X_LG[i] = Moved(stepped.X_LG[i], C.ldlt().solve(rest));
-  }
-  return stepped;
-}
-
-// Tells whether the cameras are still valid after a step, i.e. whether the focal lengths are
-// positive.
-bool IsSensible(const PairState& state, const PairVector& step) {
-  if (!step.allFinite()) return false;
-  using CameraVector = Eigen::Matrix<double, kCameraParameters, 1>;
-  const CameraVector left = state.cameras.left.ParameterVector() + step.head<kCameraParameters>();
-  const CameraVector right =
-      state.cameras.right.ParameterVector() + step.segment<kCameraParameters>(kRight);
-  return left[0] > 0.0 && left[1] > 0.0 && right[0] > 0.0 && right[1] > 0.0;
-}
-
-PairMatrix Cofactor(const NormalEquations& equations, const AdjustmentOptions& options) {
-  Reduced reduced = Reduce(equations, 0.0, options);
-  // Scaled to a unit diagonal, so that pixels and radians can be compared.
-  const PairVector scale = reduced.matrix.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const PairMatrix scaled = scale.asDiagonal() * reduced.matrix * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<PairMatrix> spectrum(scaled);
-  constexpr double kSmallestEigenvalue = 1e-11;
-  if (!(spectrum.eigenvalues()[0] > kSmallestEigenvalue)) {
-    throw InputError("calibration",
-                     "the views do not determine the cameras: the board has to be tilted in "
-                     "different directions, near and far");
-  }
-  PairMatrix cofactor = scale.asDiagonal() * spectrum.eigenvectors() *
-                        spectrum.eigenvalues().cwiseInverse().asDiagonal() *
-                        spectrum.eigenvectors().transpose() * scale.asDiagonal();
-  if (!options.free_k3) {
-    for (const int fixed : {kK3, kRight + kK3}) {
-      cofactor.row(fixed).setZero();
-      cofactor.col(fixed).setZero();
-    }
-  }
-  return cofactor;
-}
 
 }  // namespace
 
@@ -201,7 +210,7 @@ PairVector PairError(const StereoCalibration& estimate, const StereoCalibration&
   error.segment<kCameraParameters>(kRight) =
       truth.right.ParameterVector() - estimate.right.ParameterVector();
   const Eigen::AngleAxisd turn(
-      Matrix3d(truth.X_RL.rotation() * estimate.X_RL.rotation().transpose()));
+      Eigen::Matrix3d(truth.X_RL.rotation() * estimate.X_RL.rotation().transpose()));
   error.segment<3>(kRelative) = turn.angle() * turn.axis();
   error.tail<3>() = truth.X_RL.translation() - estimate.X_RL.translation();
   return error;
@@ -210,43 +219,21 @@ PairVector PairError(const StereoCalibration& estimate, const StereoCalibration&
 AdjustedPair AdjustPair(const PairState& start, const std::vector<BoardView>& views,
                         const CalibrationBoard& board, const AdjustmentOptions& options) {
   FENESTRA_CHECK(start.X_LG.size() == views.size(), "each view needs a board pose to start from");
-  constexpr int kMostSteps = 100;
-  constexpr double kSettled = 1e-12;  // Relative change of the sum of squares at convergence.
-  PairState state = start;
-  NormalEquations equations = Linearise(state, views, board);
-  if (!std::isfinite(equations.squared_residuals)) {
+  // Exceptions say what Ceres would write to standard error.
+  [[maybe_unused]] static const int least_level = FLAGS_minloglevel = google::GLOG_FATAL;
+  PairProblem problem(start, views, board, options);
+  const ceres::Solver::Summary summary = problem.Minimise();
+  if (!summary.IsSolutionUsable()) {
     throw InputError("calibration", "the start lies outside the lens model's valid domain");
   }
-  double damping = 1e-4;
-  for (int i = 0; i < kMostSteps && damping < 1e12; ++i) {
-    const Reduced reduced = Reduce(equations, damping, options);
-    const PairVector step = reduced.matrix.ldlt().solve(reduced.vector);
-    if (!IsSensible(state, step)) {
-      damping *= 10.0;
-      continue;
-    }
-    const PairState candidate = Stepped(state, equations, damping, step);
-    NormalEquations next = Linearise(candidate, views, board);
-    if (next.squared_residuals > equations.squared_residuals) {
-      damping *= 10.0;
-      continue;
-    }
-    const double gain = equations.squared_residuals - next.squared_residuals;
-    state = candidate;
-    equations = std::move(next);
-    damping = std::max(1e-12, 0.1 * damping);
-    if (gain <= kSettled * equations.squared_residuals) break;
-  }
-  const int free_parameters = kPairParameters - (options.free_k3 ? 0 : 2);
-  const int unknowns = free_parameters + 6 * static_cast<int>(views.size());
-  if (equations.residual_count <= unknowns) {
+  if (summary.num_residuals <= summary.num_effective_parameters) {
     throw InputError("calibration", "there are fewer corners than the cameras' parameters need");
   }
-  return {.state = state,
-          .squared_residuals = equations.squared_residuals,
-          .residual_count = equations.residual_count,
-          .unknown_count = unknowns,
-          .cofactor = Cofactor(equations, options)};
+  return {.state = problem.State(),
+          .squared_residuals = 2.0 * summary.final_cost,
+          .residual_count = summary.num_residuals,
+          .unknown_count = summary.num_effective_parameters,
+          .cofactor = problem.Cofactor()};
 }
 
 }  // namespace fenestra

@@ -40,8 +40,8 @@ struct PairState {
 ///
 ///     Σ w |pixel - project(X_CG p_GQ)|²
 ///
-/// by the Levenberg–Marquardt method with analytic derivatives; the board poses are eliminated by
-/// their Schur complement.
+/// by Ceres: the Levenberg–Marquardt method with analytic derivatives; the board poses are eliminated
+/// by their Schur complement.
 struct AdjustedPair {
   PairState state;
   double squared_residuals;  ///< Weighted sum; [px²] with unit weights.

@@ -72,8 +72,8 @@ TEST(DetectorComparison, PairsTrialsWhateverTheOrder) {
   EXPECT_EQ(all[0].successes.only_second, 1);
   EXPECT_EQ(all[0].errors.second_nearer, 2);
   EXPECT_EQ(all[0].errors.both_finite, 1);
-  EXPECT_THAT(ComparisonMarkdown(all), testing::HasSubstr("a − b"));
-  EXPECT_THAT(ComparisonMarkdown(all), testing::HasSubstr("0 : 2"));
+  EXPECT_THAT(ComparisonMarkdown(all), ::testing::HasSubstr("a − b"));
+  EXPECT_THAT(ComparisonMarkdown(all), ::testing::HasSubstr("0 : 2"));
 }
 
 TEST(DetectorComparison, InScenesWithoutAWindowClearIsSuccess) {

@@ -8,7 +8,7 @@
 namespace fenestra {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 
 // Searches a curve of so many levels, where detector d holds from near[d] to far[d].
 struct Searched {

@@ -97,9 +97,9 @@ TEST(ErrorBudget, SaysHowManyTrialsItLeavesOut) {
   // A row is kept if both of its lights are bright enough: 0.64.
   EXPECT_NEAR(budget.used_rows, 768, 5 * 17);
   const std::string text = ErrorBudgetMarkdown(std::vector{budget});
-  EXPECT_THAT(text, testing::HasSubstr(fmt::format("{} of 7200 trials are hits", budget.hits)));
-  EXPECT_THAT(text, testing::HasSubstr("| noise "));
-  EXPECT_THAT(ErrorBudgetCsv(std::vector{budget}), testing::HasSubstr(",depth,"));
+  EXPECT_THAT(text, ::testing::HasSubstr(fmt::format("{} of 7200 trials are hits", budget.hits)));
+  EXPECT_THAT(text, ::testing::HasSubstr("| noise "));
+  EXPECT_THAT(ErrorBudgetCsv(std::vector{budget}), ::testing::HasSubstr(",depth,"));
   EXPECT_EQ(ErrorBudgetMarkdown({}), "");
 }
 

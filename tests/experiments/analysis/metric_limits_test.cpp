@@ -9,7 +9,7 @@
 namespace fenestra {
 namespace {
 
-MetricRow HitAt(int trial, const Eigen::Vector3d& error_C) {
+MetricRow HitRow(int trial, const Eigen::Vector3d& error_C) {
   return {.outcome = Outcome::kHit,
           .has_target = true,
           .cluster = {.replicate = trial},
@@ -18,7 +18,7 @@ MetricRow HitAt(int trial, const Eigen::Vector3d& error_C) {
 
 MetricTally Mixed(int hits, int misses) {
   MetricTally tally;
-  for (int i = 0; i < hits; ++i) tally.Add(HitAt(i, {0, 0, 0.010}));
+  for (int i = 0; i < hits; ++i) tally.Add(HitRow(i, {0, 0, 0.010}));
   for (int i = 0; i < misses; ++i) {
     tally.Add(
         {.outcome = Outcome::kMissed, .has_target = true, .cluster = {.replicate = hits + i}});
@@ -61,28 +61,28 @@ MetricTally HeavyTailed(uint64_t run, int rows) {
   for (int i = 0; i < rows; ++i) {
     const RandomStream own = stream.Child("row", static_cast<uint64_t>(i));
     const double sigma_m = own.Uniform(3) < 0.02 ? 0.2 : 0.01;
-    tally.Add(HitAt(i, sigma_m * Eigen::Vector3d(own.Normal(0), own.Normal(1), own.Normal(2))));
+    tally.Add(HitRow(i, sigma_m * Eigen::Vector3d(own.Normal(0), own.Normal(1), own.Normal(2))));
   }
   return tally;
 }
 
-constexpr int kDrawnStudies = 1000;
+constexpr int kRuns = 1000;
 
 // How often a limit that the metric only just does not meet is said to hold.
 double WronglyHeld(const char* name, double truth) {
   int held = 0;
-  for (uint64_t run = 0; run < kDrawnStudies; ++run) {
+  for (uint64_t run = 0; run < kRuns; ++run) {
     held += Against(HeavyTailed(run, 200), name, truth, true).Holds(0.95) ? 1 : 0;
   }
-  return static_cast<double>(held) / kDrawnStudies;
+  return static_cast<double>(held) / kRuns;
 }
 
 TEST(MetricLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
   // The truth by a sample so large that its own error, 0.1 %, is a fiftieth of that of 200 rows.
   const double trimmed =
-      HeavyTailed(kDrawnStudies, 400'000).Estimate(*FindMetric("trimmed_rmse_mm"))->value;
+      HeavyTailed(kRuns, 400'000).Estimate(*FindMetric("trimmed_rmse_mm"))->value;
   // 5 % and four standard deviations, a false alarm of 3e-5, and 1 % for what is of first order.
-  const double limit = 0.05 + 0.01 + 4.0 * std::sqrt(0.05 * 0.95 / kDrawnStudies);
+  const double limit = 0.05 + 0.01 + 4.0 * std::sqrt(0.05 * 0.95 / kRuns);
   EXPECT_LE(WronglyHeld("trimmed_rmse_mm", trimmed), limit);
   // The twin: of an rmse of the same rows a limit holds wrongly far more often. 0.98 + 0.02 · 20².
   EXPECT_GT(WronglyHeld("rmse_mm", 10.0 * std::sqrt(3.0 * (0.98 + 8.0))), limit);
@@ -90,9 +90,9 @@ TEST(MetricLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
 
 TEST(MetricLimits, SayHowMuchOfAnRmseTheLargestRowHolds) {
   MetricTally tally;
-  for (int i = 0; i < 99; ++i) tally.Add(HitAt(i, {0, 0, 0.010}));
+  for (int i = 0; i < 99; ++i) tally.Add(HitRow(i, {0, 0, 0.010}));
   EXPECT_NEAR(*Against(tally, "rmse_mm", 20.0, true).largest_share, 1.0 / 99.0, 1e-12);
-  tally.Add(HitAt(99, {0, 0, 0.100}));  // 100 of 199 squares of 10 mm.
+  tally.Add(HitRow(99, {0, 0, 0.100}));  // 100 of 199 squares of 10 mm.
   EXPECT_NEAR(*Against(tally, "rmse_mm", 20.0, true).largest_share, 100.0 / 199.0, 1e-12);
   EXPECT_FALSE(Against(tally, "trimmed_rmse_mm", 20.0, true).largest_share.has_value());
 }

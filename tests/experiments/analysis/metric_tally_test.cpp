@@ -13,9 +13,9 @@
 namespace fenestra {
 namespace {
 
-constexpr double kMissed_mm = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteValue = std::numeric_limits<double>::infinity();
 
-MetricRow HitRow(int trial, const Eigen::Vector3d& error_C) {
+MetricRow Hit(int trial, const Eigen::Vector3d& error_C) {
   return {.outcome = Outcome::kHit,
           .has_target = true,
           .cluster = {.replicate = trial},
@@ -39,8 +39,8 @@ MetricEstimate Of(const MetricTally& tally, const char* name, double confidence 
 
 TEST(MetricTally, EveryRateHasItsDenominator) {
   MetricTally tally;
-  for (int i = 0; i < 6; ++i) tally.Add(HitRow(i, {0.001 * i, 0, 0.01}));
-  MetricRow gross = HitRow(6, {0, 0, 1});
+  for (int i = 0; i < 6; ++i) tally.Add(Hit(i, {0.001 * i, 0, 0.01}));
+  MetricRow gross = Hit(6, {0, 0, 1});
   gross.outcome = Outcome::kGross;
   tally.Add(gross);
   tally.Add(Without(7, Outcome::kMissed));
@@ -74,7 +74,7 @@ TEST(MetricTally, IndependentRowsHaveTheIntervalsOfTheTextbook) {
   for (int i = 0; i < 30; ++i) {
     const RandomStream stream = RandomStream(1).Child("row", static_cast<uint64_t>(i));
     const Eigen::Vector3d e(stream.Normal(0), stream.Normal(1), stream.Normal(2));
-    tally.Add(HitRow(i, e));
+    tally.Add(Hit(i, e));
     z.push_back(e.z());
     lengths.push_back(e.norm());
   }
@@ -92,13 +92,13 @@ TEST(MetricTally, IndependentRowsHaveTheIntervalsOfTheTextbook) {
 
 TEST(MetricTally, AMissIsInfinitelyFarOff) {
   MetricTally tally;
-  for (int i = 0; i < 10; ++i) tally.Add(HitRow(i, {0, 0, 0.010 + 0.001 * i}));
+  for (int i = 0; i < 10; ++i) tally.Add(Hit(i, {0, 0, 0.010 + 0.001 * i}));
   for (int i = 10; i < 20; ++i) tally.Add(Without(i, Outcome::kMissed));
   EXPECT_EQ(Of(tally, "p50_error_mm").of, 20);
   EXPECT_NEAR(Of(tally, "p50_error_mm").value, 19.0, 1e-9);
-  EXPECT_EQ(Of(tally, "p50_error_mm").interval->upper, kMissed_mm);
-  EXPECT_EQ(Of(tally, "p95_error_mm").value, kMissed_mm);
-  EXPECT_EQ(Of(tally, "p95_depth_mm").value, kMissed_mm);
+  EXPECT_EQ(Of(tally, "p50_error_mm").interval->upper, kInfiniteValue);
+  EXPECT_EQ(Of(tally, "p95_error_mm").value, kInfiniteValue);
+  EXPECT_EQ(Of(tally, "p95_depth_mm").value, kInfiniteValue);
   EXPECT_EQ(Of(tally, "bias_z_mm").of, 10);
   EXPECT_FALSE(Of(tally, "rmse_across_mm").interval.has_value());  // All are equal: 0.
 }
@@ -109,9 +109,9 @@ TEST(MetricTally, HitsAreCountedAtSeveralSharesOfTheSide) {
   // Errors of 4, 8 and 20 % of a side of 2 m, in depth but for the last; and 40 % in depth alone.
   for (const Eigen::Vector3d& error :
        {Eigen::Vector3d(0, 0, 0.08), Eigen::Vector3d(0, 0, 0.16), Eigen::Vector3d(0.4, 0, 0)}) {
-    tally.Add(HitRow(trial++, error));
+    tally.Add(Hit(trial++, error));
   }
-  tally.Add(HitRow(trial++, {0, 0, 0.8}));
+  tally.Add(Hit(trial++, {0, 0, 0.8}));
   tally.Add(Without(trial++, Outcome::kMissed));
   MetricTally of_two_metres;
   for (MetricRow row : tally.rows()) {
@@ -133,7 +133,7 @@ TEST(MetricTally, HitsAreCountedAtSeveralSharesOfTheSide) {
 
 TEST(MetricTally, AWrongWindowIsNeverWithin) {
   MetricTally tally;
-  MetricRow wrong = HitRow(0, {0, 0, 0.01});
+  MetricRow wrong = Hit(0, {0, 0, 0.01});
   wrong.outcome = Outcome::kWrongWindow;
   tally.Add(wrong);
   for (const char* name : {"hit_rate_5pct", "depth_rate_25pct", "across_rate_25pct"}) {
@@ -144,7 +144,7 @@ TEST(MetricTally, AWrongWindowIsNeverWithin) {
 TEST(MetricTally, OverTheBoundIsOfTheSameHits) {
   MetricTally tally;
   for (int i = 0; i < 8; ++i) {
-    MetricRow row = HitRow(i, {0.003, 0, 0.004 + 0.001 * i});
+    MetricRow row = Hit(i, {0.003, 0, 0.004 + 0.001 * i});
     row.bound_variances_C = Eigen::Vector3d(1e-6, 2e-6, (1 + i) * 1e-6);
     tally.Add(row);
   }
@@ -153,7 +153,7 @@ TEST(MetricTally, OverTheBoundIsOfTheSameHits) {
               1e-3 * Of(tally, "rmse_mm").value / std::sqrt(mean_variance), 1e-12);
   EXPECT_NEAR(Of(tally, "rms_error_over_bound").of, 8, 0);
   EXPECT_LT(Of(tally, "rmse_over_bound").interval->lower, Of(tally, "rmse_over_bound").value);
-  tally.Add(HitRow(8, {0, 0, 0.001}));  // Without a bound.
+  tally.Add(Hit(8, {0, 0, 0.001}));  // Without a bound.
   EXPECT_FALSE(tally.Estimate(*FindMetric("rmse_over_bound")).has_value());
   EXPECT_EQ(Of(tally, "rms_error_over_bound").of, 8);
 }
@@ -161,7 +161,7 @@ TEST(MetricTally, OverTheBoundIsOfTheSameHits) {
 TEST(MetricTally, RowsThatAreNotIndependentCountForTheValueAlone) {
   MetricTally tally;
   for (int i = 0; i < 40; ++i) {
-    MetricRow row = i % 4 == 0 ? Without(i, Outcome::kMissed) : HitRow(i, {0, 0, 0.001 * i});
+    MetricRow row = i % 4 == 0 ? Without(i, Outcome::kMissed) : Hit(i, {0, 0, 0.001 * i});
     row.is_independent = i % 2 == 0;
     tally.Add(row);
   }
@@ -175,7 +175,7 @@ TEST(MetricTally, RowsThatAreNotIndependentCountForTheValueAlone) {
 
 TEST(MetricTally, WiderConfidenceIsWider) {
   MetricTally tally;
-  for (int i = 0; i < 40; ++i) tally.Add(HitRow(i, {0, 0.001 * (i % 7), 0.001 * i}));
+  for (int i = 0; i < 40; ++i) tally.Add(Hit(i, {0, 0.001 * (i % 7), 0.001 * i}));
   for (const char* name : {"hit_rate", "bias_z_mm", "rmse_mm", "trimmed_rmse_mm", "p50_error_mm"}) {
     const Interval narrow = *Of(tally, name, 0.90).interval;
     const Interval wide = *Of(tally, name, 0.99).interval;
@@ -187,7 +187,7 @@ TEST(MetricTally, WiderConfidenceIsWider) {
 TEST(MetricTally, SaysNothingOfWhatThereIsNot) {
   EXPECT_TRUE(EstimatesOf(MetricTally()).empty());
   MetricTally unknown_side;
-  MetricRow row = HitRow(0, {0, 0, 0.001});
+  MetricRow row = Hit(0, {0, 0, 0.001});
   row.side_m.reset();
   unknown_side.Add(row);
   EXPECT_FALSE(unknown_side.Estimate(*FindMetric("hit_rate_5pct")).has_value());
@@ -231,8 +231,8 @@ MetricTally SharedStudy(uint64_t run, bool know_clusters) {
       };
       const int trial = know_clusters ? r : kCells * r + c;
       if (shared_half(3) > kThreshold) {
-        tally.Add(HitRow(
-            trial, kSigma_m * Eigen::Vector3d(shared_half(0), shared_half(1), shared_half(2))));
+        tally.Add(
+            Hit(trial, kSigma_m * Eigen::Vector3d(shared_half(0), shared_half(1), shared_half(2))));
       } else {
         tally.Add(Without(trial, Outcome::kMissed));
       }

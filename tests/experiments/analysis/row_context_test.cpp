@@ -11,7 +11,7 @@ namespace {
 
 using testing::RowWithError;
 
-const std::string kSharedStudy =
+const std::string kContextStudy =
     "name: test\nsensors: [stereo]\nrepetitions: 30\n"
     "factors:\n  distance_m: [2, 3]\n  window_height_m: 0.8\n  yaw_deg: {uniform: [-2, 2]}\n";
 
@@ -25,17 +25,17 @@ MetricRow Of(const RowContext& context, int cell, int trial) {
 }
 
 TEST(RowContext, CellsShareTheirReplicatesUnlessTheyAreIndependent) {
-  const RowContext shared = ContextOf(kSharedStudy);
+  const RowContext shared = ContextOf(kContextStudy);
   EXPECT_EQ(Of(shared, 0, 7).cluster, Of(shared, 1, 7).cluster);
   EXPECT_NE(Of(shared, 0, 7).cluster, Of(shared, 0, 8).cluster);
-  const RowContext apart = ContextOf(kSharedStudy + "independent_cells: true\n");
+  const RowContext apart = ContextOf(kContextStudy + "independent_cells: true\n");
   EXPECT_NE(Of(apart, 0, 7).cluster, Of(apart, 1, 7).cluster);
   EXPECT_EQ(Of(apart, 0, 7).cluster, Of(apart, 0, 7).cluster);
 }
 
 TEST(RowContext, OfASensitivityDesignTwoTrialsOfARowAreIndependent) {
   // Causes: noise, calibration and pose, so five trials a row.
-  const RowContext context = ContextOf(kSharedStudy + "design: sensitivity\n");
+  const RowContext context = ContextOf(kContextStudy + "design: sensitivity\n");
   for (int trial = 0; trial < 30; ++trial) {
     EXPECT_EQ(Of(context, 0, trial).is_independent, trial % 5 <= 1) << trial;
   }
@@ -45,7 +45,7 @@ TEST(RowContext, OfASensitivityDesignTwoTrialsOfARowAreIndependent) {
 }
 
 TEST(RowContext, TheSideIsTheSmallerOneOfTheTrialsOwnWindow) {
-  const RowContext context = ContextOf(kSharedStudy);
+  const RowContext context = ContextOf(kContextStudy);
   EXPECT_DOUBLE_EQ(*Of(context, 0, 0).side_m, 0.8);  // The width is 1 m by default.
   TrialRecord narrow = RowWithError(0, 0, Outcome::kHit, {0.0, 0.0, 0.01});
   narrow.drawn = {{"window_width_m", 0.5}};
@@ -56,9 +56,9 @@ TEST(RowContext, TheSideIsTheSmallerOneOfTheTrialsOwnWindow) {
 }
 
 TEST(RowContext, CellsThatMayStopEarlyNeedMoreConfidence) {
-  EXPECT_EQ(ContextOf(kSharedStudy).Confidence(0), 0.95);
+  EXPECT_EQ(ContextOf(kContextStudy).Confidence(0), 0.95);
   const int looks = static_cast<int>(Looks(20, 30).size());
-  EXPECT_EQ(ContextOf(kSharedStudy + "until: {hit_rate: 0.1}\n").Confidence(1),
+  EXPECT_EQ(ContextOf(kContextStudy + "until: {hit_rate: 0.1}\n").Confidence(1),
             LookConfidence(0.95, looks));
 }
 

@@ -10,7 +10,7 @@
 namespace fenestra {
 namespace {
 
-constexpr double kOpenEnd = std::numeric_limits<double>::infinity();
+constexpr double kInfiniteBound = std::numeric_limits<double>::infinity();
 
 TEST(ClusteredQuantileInterval, ClustersOfOneRowGiveOrderStatistics) {
   for (const size_t n : {1, 5, 72, 200}) {
@@ -51,16 +51,16 @@ TEST(ClusteredQuantileInterval, HasNoEndWhereClustersAreTooFew) {
     for (size_t i = 0; i < 10 * clusters; ++i) rows.push_back({1.0, i / 10});
     return rows;
   };
-  EXPECT_EQ(ClusteredQuantileInterval(equal_rows(71), 0.95).upper, kOpenEnd);
+  EXPECT_EQ(ClusteredQuantileInterval(equal_rows(71), 0.95).upper, kInfiniteBound);
   EXPECT_EQ(ClusteredQuantileInterval(equal_rows(72), 0.95).upper, 1.0);
-  EXPECT_EQ(ClusteredQuantileInterval({}, 0.5).lower, -kOpenEnd);
+  EXPECT_EQ(ClusteredQuantileInterval({}, 0.5).lower, -kInfiniteBound);
 }
 
 TEST(ClusteredQuantileInterval, MissesAreInfinite) {
   std::vector<ClusteredValue> rows;
-  for (size_t i = 0; i < 400; ++i) rows.push_back({i % 10 == 0 ? kOpenEnd : 1.0, i / 4});
+  for (size_t i = 0; i < 400; ++i) rows.push_back({i % 10 == 0 ? kInfiniteBound : 1.0, i / 4});
   EXPECT_EQ(ClusteredQuantileInterval(rows, 0.5).upper, 1.0);
-  EXPECT_EQ(ClusteredQuantileInterval(rows, 0.98).lower, kOpenEnd);
+  EXPECT_EQ(ClusteredQuantileInterval(rows, 0.98).lower, kInfiniteBound);
 }
 
 TEST(ClusteredRmsInterval, ClustersOfOneRowGiveTheIntervalOfTheRms) {

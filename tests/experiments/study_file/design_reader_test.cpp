@@ -8,8 +8,8 @@
 namespace fenestra {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::string With(const std::string& design) {
   return "name: test\nrepetitions: 20\nsensors: [stereo]\ndesign: " + design + R"(

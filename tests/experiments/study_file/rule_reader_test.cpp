@@ -8,8 +8,8 @@
 namespace fenestra {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 std::string StudyWithRule(const std::string& lines, const std::string& repetitions = "100") {
   return "name: test\nsensors: [stereo]\nrepetitions: " + repetitions + "\n" + lines +

@@ -10,9 +10,9 @@
 namespace fenestra {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 TEST(StudyReader, FillsInAllDefaults) {
   const Study study = ReadText(kStudyHead);

@@ -46,12 +46,12 @@ TEST(StudyWriter, WritesEveryFactorAndOption) {
   const Study study = ReadText(kEverything);
   const std::string text = ToYaml(study);
   for (const std::string& factor : Factors().Names()) {
-    EXPECT_THAT(text, testing::HasSubstr("      " + factor + ": ")) << factor;
+    EXPECT_THAT(text, ::testing::HasSubstr("      " + factor + ": ")) << factor;
   }
-  EXPECT_THAT(text, testing::HasSubstr("matcher: census"));
-  EXPECT_THAT(text, testing::HasSubstr("glass: [true, false]"));
-  EXPECT_THAT(text, testing::HasSubstr("pitch_deg: {normal: {mean: 0.1, sd: 1.5, min: -180, "
-                                       "max: 180}}"));
+  EXPECT_THAT(text, ::testing::HasSubstr("matcher: census"));
+  EXPECT_THAT(text, ::testing::HasSubstr("glass: [true, false]"));
+  EXPECT_THAT(text, ::testing::HasSubstr("pitch_deg: {normal: {mean: 0.1, sd: 1.5, min: -180, "
+                                         "max: 180}}"));
 }
 
 TEST(StudyCatalogue, EveryBuiltInStudyReadsAndSurvivesWriting) {

@@ -32,7 +32,7 @@ void ExpectUniform(const cv::Mat& image, double value) {
   EXPECT_NEAR(high, value, kRounding * value);
 }
 
-class BareWall : public testing::Test {
+class BareWall : public ::testing::Test {
  protected:
   static PaperTargetOptions Options() {
     return {.wall_reflectance = 0.6, .wall_reflectance_830nm = 0.3, .with_target = false};

@@ -58,10 +58,10 @@ WallOptions Wall(WallFinish finish, double contrast, Hue hue = Hue::kNeutral) {
   return wall;
 }
 
-class WallTextures : public testing::TestWithParam<WallFinish> {};
+class WallTextures : public ::testing::TestWithParam<WallFinish> {};
 INSTANTIATE_TEST_SUITE_P(OfAllKinds, WallTextures,
-                         testing::Values(WallFinish::kPlaster, WallFinish::kBrick,
-                                         WallFinish::kConcrete, WallFinish::kCladding),
+                         ::testing::Values(WallFinish::kPlaster, WallFinish::kBrick,
+                                           WallFinish::kConcrete, WallFinish::kCladding),
                          [](const auto& finish) {
                            return WallFinishNames()[static_cast<size_t>(finish.param)];
                          });

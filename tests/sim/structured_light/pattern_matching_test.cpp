@@ -198,8 +198,8 @@ TEST(PatternMatching, InNearModeTheSearchReachesTheNearestDistance) {
 TEST(PatternMatching, AllFaultsOfTheOptionsAreReportedAtOnce) {
   PatternMatchingOptions options;
   EXPECT_NO_THROW(Validate(options));
-  options.window_width_px = 8;
-  options.window_height_px = 17;
+  options.block_width_px = 8;
+  options.block_height_px = 17;
   options.search_px = 0.0;
   options.least_correlation = 1.0;
   options.least_lead = -0.1;

@@ -61,7 +61,7 @@ SeenBoard See(const StereoRig& rig, const CalibrationBoard& board, const Viewpoi
   return result;
 }
 
-class RigGeometryTest : public testing::TestWithParam<double> {};
+class RigGeometryTest : public ::testing::TestWithParam<double> {};
 
 TEST_P(RigGeometryTest, FocalLengthPrincipalPointAndBaselineAreInThePictures) {
   const StereoRigOptions options = Noiseless(GetParam());
@@ -137,7 +137,7 @@ TEST_P(RigGeometryTest, ABoardsCornersAreWhereARigAsBuiltProjectsThem) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lenses, RigGeometryTest, testing::Values(4e-3, 6e-3, 8e-3));
+INSTANTIATE_TEST_SUITE_P(Lenses, RigGeometryTest, ::testing::Values(4e-3, 6e-3, 8e-3));
 
 }  // namespace
 }  // namespace fenestra

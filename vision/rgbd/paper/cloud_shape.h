@@ -52,9 +52,9 @@ struct CloudShape {
 std::optional<CloudShape> ShapeOf(const std::vector<Eigen::Vector3d>& points_K,
                                   const PlaneTolerance& tolerance, const RandomStream& triples);
 
-/// Returns the indices of the points on the convex hull, found by Andrew's monotone chain. They run
+/// Returns the indices of the points on the convex hull (Boost.Geometry). They run
 /// counter-clockwise if y points up, i.e. clockwise as seen if y points down. Points in the
-/// interior of a side are left out.
+/// interior of a side are left out, also if only rounding lifts them off it.
 std::vector<int> ConvexHull(const std::vector<Eigen::Vector2d>& points);
 
 /// Signed area of a polygon, positive for the order that ConvexHull returns.

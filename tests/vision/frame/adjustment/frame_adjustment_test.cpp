@@ -203,11 +203,11 @@ TEST(FrameAdjustment, AMeasuredPlaneHoldsTheFrame) {
   const auto points = PointsOf(views, frame, {Border::kOuter}, 0.0, RandomStream(1), 0.001);
   const double relief_m = 0.08;
   const Vector3d normal = frame.R_LO.col(2);
-  FrameKnowledge knowledge;
-  knowledge.planes.push_back({.m = normal / (normal.dot(frame.p_LO) + relief_m),
+  FramePrior prior;
+  prior.planes.push_back({.m = normal / (normal.dot(frame.p_LO) + relief_m),
                               .information = 1e8 * Eigen::Matrix3d::Identity(),
                               .relief_m = relief_m});
-  const auto adjusted = AdjustFrame(views, points, Displaced(frame), knowledge);
+  const auto adjusted = AdjustFrame(views, points, Displaced(frame), prior);
   ASSERT_TRUE(adjusted.has_value());
   EXPECT_LT(ErrorOf(adjusted->frame, frame).head<8>().norm(), 1e-4);
 }

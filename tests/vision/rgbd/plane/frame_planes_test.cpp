@@ -82,9 +82,7 @@ std::vector<DepthPoint> PointsSeenOf(const Facade& facade, uint64_t seed = 1) {
 }
 
 DepthPlane FirstGuess(const std::vector<DepthPoint>& points) {
-  const auto plane = FindDepthPlane(points, Settings().noise, 100, RandomStream(2));
-  EXPECT_TRUE(plane.has_value());
-  return plane.value_or(DepthPlane{});
+  return FindDepthPlane(points, Settings().noise, 100, RandomStream(2)).value();
 }
 
 std::variant<FramePlanes, Miss> Measure(const Facade& facade,
