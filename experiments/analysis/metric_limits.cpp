@@ -34,7 +34,8 @@ MetricLimits BiasLimits(const std::vector<Sample>& samples, double scale) {
   const auto limit = [mean, scale](double probability, double growth) {
     return scale * Grown(mean, growth).Quantile(probability);
   };
-  return {.lower = [limit](double c, double g) { return limit(1.0 - c, g); },
+  return {.estimate = scale * mean.mean,
+          .lower = [limit](double c, double g) { return limit(1.0 - c, g); },
           .upper = [limit](double c, double g) { return limit(c, g); },
           .clusters = mean.clusters};
 }
@@ -88,7 +89,10 @@ MetricLimits ShareLimits(const std::vector<Sample>& shares) {
   const auto grown = [count](double growth) {
     return EffectiveCount{count.successes * growth, count.trials * growth, count.clusters * growth};
   };
-  return {.lower = [grown](double c, double g) { return LowerProportionLimit(grown(g), c); },
+  double with = 0.0;
+  for (const Sample& share : shares) with += share.value;
+  return {.estimate = with / static_cast<double>(shares.size()),
+          .lower = [grown](double c, double g) { return LowerProportionLimit(grown(g), c); },
           .upper = [grown](double c, double g) { return UpperProportionLimit(grown(g), c); },
           .clusters = static_cast<int>(clustered.clusters()),
           .share = count};
@@ -98,7 +102,8 @@ MetricLimits RootLimits(double estimate, const ClusteredMean& logarithm) {
   const auto limit = [estimate, logarithm](double probability, double growth) {
     return estimate * std::exp(0.5 * Grown(logarithm, growth).Quantile(probability));
   };
-  return {.lower = [limit](double c, double g) { return limit(1.0 - c, g); },
+  return {.estimate = estimate,
+          .lower = [limit](double c, double g) { return limit(1.0 - c, g); },
           .upper = [limit](double c, double g) { return limit(c, g); },
           .clusters = logarithm.clusters};
 }

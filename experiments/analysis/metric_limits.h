@@ -20,6 +20,7 @@ const char* ToString(Verdict verdict);
 
 /// What rows tell of a number that a limit is set for.
 struct MetricLimits {
+  double estimate = 0.0;  ///< Of that number.
   /// One-sided confidence limits of that number, from `growth` times the clusters with the same
   /// scatter.
   std::function<double(double confidence, double growth)> lower{};

@@ -150,6 +150,7 @@ std::optional<Estimation> EstimateRateDifference(const Bound& bound,
   result.interval =
       fmt::format("{:+.1f} to {:+.1f} points", 100.0 * result.limits.lower(0.975, 1.0),
                   100.0 * result.limits.upper(0.975, 1.0));
+  result.limits.estimate = net / static_cast<double>(gained.size());
   result.limits.limit = bound.limit;
   result.limits.is_upper = bound.is_upper;
   return result;

@@ -74,7 +74,7 @@ struct Metric {
   bool IsShare() const { return kind == Kind::kRate || kind == Kind::kWithin; }
 };
 
-/// The share of the hits that kTrimmedRmse leaves out.
+/// The share of the hits that kTrimmedRmse leaves out, rounded down to whole ones: some from 20 on.
 inline constexpr double kTrimmedShare = 0.05;
 /// 95 % of χ² with three degrees of freedom are below.
 inline constexpr double kChiSquare3At95 = 7.814727903;

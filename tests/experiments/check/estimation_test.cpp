@@ -19,7 +19,9 @@ using testing::RowWithError;
 std::vector<SelectedRow> Selected(const std::vector<TrialRecord>& rows, int rows_per_cluster = 1) {
   std::vector<SelectedRow> selected;
   for (size_t i = 0; i < rows.size(); ++i) {
-    selected.push_back({.row = &rows[i], .cluster = {0, static_cast<int>(i) / rows_per_cluster}});
+    SelectedRow row{.row = &rows[i], .now = RowContext().Of(rows[i])};
+    row.now.cluster = {.replicate = static_cast<int>(i) / rows_per_cluster};
+    selected.push_back(row);
   }
   return selected;
 }
@@ -51,11 +53,11 @@ TEST(Estimation, ARatesLimitsAreClopperPearsonsWhereRowsAreIndependent) {
   const auto rate = EstimateOf("rate(hit) >= 0.9", Hits(33, 7));
   ASSERT_TRUE(rate.has_value());
   EXPECT_EQ(rate->rows, 40);
-  EXPECT_EQ(rate->clusters, 40);
-  EXPECT_EQ(rate->estimate, 33.0 / 40.0);
+  EXPECT_EQ(rate->limits.clusters, 40);
+  EXPECT_EQ(rate->limits.estimate, 33.0 / 40.0);
   const Interval exact = ClopperPearson(33, 40, 0.90);  // Two-sided: 5 % on either side.
-  EXPECT_NEAR(rate->lower(0.95, 1.0), exact.lower, 1e-12);
-  EXPECT_NEAR(rate->upper(0.95, 1.0), exact.upper, 1e-12);
+  EXPECT_NEAR(rate->limits.lower(0.95, 1.0), exact.lower, 1e-12);
+  EXPECT_NEAR(rate->limits.upper(0.95, 1.0), exact.upper, 1e-12);
 }
 
 TEST(Estimation, RowsThatRepeatEachOtherCountOnce) {
@@ -64,9 +66,9 @@ TEST(Estimation, RowsThatRepeatEachOtherCountOnce) {
   const auto clustered = EstimateOf("rate(hit) >= 0.9", repeated, 4);
   const auto careless = EstimateOf("rate(hit) >= 0.9", repeated, 1);
   const auto once = EstimateOf("rate(hit) >= 0.9", Hits(33, 7));
-  EXPECT_EQ(clustered->clusters, 40);
-  EXPECT_NEAR(clustered->lower(0.95, 1.0), once->lower(0.95, 1.0), 0.02);
-  EXPECT_GT(careless->lower(0.95, 1.0), once->lower(0.95, 1.0) + 0.03);
+  EXPECT_EQ(clustered->limits.clusters, 40);
+  EXPECT_NEAR(clustered->limits.lower(0.95, 1.0), once->limits.lower(0.95, 1.0), 0.02);
+  EXPECT_GT(careless->limits.lower(0.95, 1.0), once->limits.lower(0.95, 1.0) + 0.03);
 }
 
 TEST(Estimation, MoreRowsOfTheSameScatterAreMoreCertain) {
@@ -74,9 +76,10 @@ TEST(Estimation, MoreRowsOfTheSameScatterAreMoreCertain) {
                             "bias(centroid_error_z_mm) <= 5", "p50(centroid_error_mm) <= 9"}) {
     const auto some = EstimateOf(bound, NormalHits(60, 3.0, 1));
     ASSERT_TRUE(some.has_value()) << bound;
-    const double width = some->upper(0.95, 1.0) - some->lower(0.95, 1.0);
-    EXPECT_LT(some->upper(0.95, 4.0) - some->lower(0.95, 4.0), 0.7 * width + 1e-12) << bound;
-    EXPECT_LE(some->lower(0.99, 1.0), some->lower(0.95, 1.0)) << bound;
+    const double width = some->limits.upper(0.95, 1.0) - some->limits.lower(0.95, 1.0);
+    EXPECT_LT(some->limits.upper(0.95, 4.0) - some->limits.lower(0.95, 4.0), 0.7 * width + 1e-12)
+        << bound;
+    EXPECT_LE(some->limits.lower(0.99, 1.0), some->limits.lower(0.95, 1.0)) << bound;
   }
 }
 
@@ -84,12 +87,12 @@ TEST(Estimation, MoreRowsOfTheSameScatterAreMoreCertain) {
 TEST(Estimation, AQuantileIsAShareOfWhatIsWithinItsLimit) {
   const auto quantile = EstimateOf("p80(centroid_error_mm) <= 15", Hits(30, 10));
   ASSERT_TRUE(quantile.has_value());
-  EXPECT_EQ(quantile->estimate, 0.75) << "a miss is within no limit";
-  EXPECT_EQ(quantile->limit, 0.8);
-  EXPECT_FALSE(quantile->is_upper);
+  EXPECT_EQ(quantile->limits.estimate, 0.75) << "a miss is within no limit";
+  EXPECT_EQ(quantile->limits.limit, 0.8);
+  EXPECT_FALSE(quantile->limits.is_upper);
   // At the limit both senses hold.
-  EXPECT_EQ(EstimateOf("p80(centroid_error_mm) <= 10", Hits(30, 10))->estimate, 0.75);
-  EXPECT_EQ(EstimateOf("p80(centroid_error_mm) >= 10", Hits(30, 10))->estimate, 0.0);
+  EXPECT_EQ(EstimateOf("p80(centroid_error_mm) <= 10", Hits(30, 10))->limits.estimate, 0.75);
+  EXPECT_EQ(EstimateOf("p80(centroid_error_mm) >= 10", Hits(30, 10))->limits.estimate, 0.0);
 }
 
 // Student's t: x̄ ± t s/√n.
@@ -104,10 +107,12 @@ TEST(Estimation, ABiassLimitsAreStudents) {
   for (const double x : values) mean += x / 16.0;
   double variance = 0.0;
   for (const double x : values) variance += (x - mean) * (x - mean) / 15.0;
-  EXPECT_NEAR(bias->estimate, mean, 1e-9);
+  EXPECT_NEAR(bias->limits.estimate, mean, 1e-9);
   // The 95 % quantile of t with 15 degrees of freedom is 1.753.
-  EXPECT_NEAR(bias->upper(0.95, 1.0), mean + 1.753 * std::sqrt(variance / 16.0), 1e-3 * 10.0);
-  EXPECT_NEAR(bias->lower(0.95, 1.0), mean - 1.753 * std::sqrt(variance / 16.0), 1e-3 * 10.0);
+  EXPECT_NEAR(bias->limits.upper(0.95, 1.0), mean + 1.753 * std::sqrt(variance / 16.0),
+              1e-3 * 10.0);
+  EXPECT_NEAR(bias->limits.lower(0.95, 1.0), mean - 1.753 * std::sqrt(variance / 16.0),
+              1e-3 * 10.0);
 }
 
 TEST(Estimation, AnRmsesLimitsAreOnTheWrongSideAboutAsOftenAsStated) {
@@ -117,7 +122,7 @@ TEST(Estimation, AnRmsesLimitsAreOnTheWrongSideAboutAsOftenAsStated) {
   constexpr int kSamples = 400;
   for (uint64_t i = 0; i < kSamples; ++i) {
     const auto rmse = EstimateOf("rmse(centroid_error_z_mm) <= 10", NormalHits(60, 0.0, 100 + i));
-    wrong += rmse->upper(0.95, 1.0) < 10.0 ? 1 : 0;
+    wrong += rmse->limits.upper(0.95, 1.0) < 10.0 ? 1 : 0;
   }
   EXPECT_LT(wrong, kSamples * (0.05 + 0.044 + 0.03));
 }
@@ -125,19 +130,19 @@ TEST(Estimation, AnRmsesLimitsAreOnTheWrongSideAboutAsOftenAsStated) {
 TEST(Estimation, AgainstABaselineEqualRowsHaveTheRatioOneWithoutAnyDoubt) {
   const std::vector<TrialRecord> rows = NormalHits(30, 0.0, 5);
   std::vector<SelectedRow> selected = Selected(rows);
-  for (SelectedRow& row : selected) row.baseline = row.row;
+  for (SelectedRow& row : selected) row.before = row.now;
   Bound bound = ParseBound("rmse(centroid_error_mm) <= 1.1", 0.95);
   bound.to_baseline = true;
   const auto ratio = Estimate(bound, selected);
   ASSERT_TRUE(ratio.has_value());
-  EXPECT_NEAR(ratio->estimate, 1.0, 1e-12);
-  EXPECT_NEAR(ratio->upper(0.95, 1.0), 1.0, 1e-9);
+  EXPECT_NEAR(ratio->limits.estimate, 1.0, 1e-12);
+  EXPECT_NEAR(ratio->limits.upper(0.95, 1.0), 1.0, 1e-9);
   bound = ParseBound("rate(hit) >= 0.9", 0.95);
   bound.to_baseline = true;
   const auto difference = Estimate(bound, selected);
-  EXPECT_EQ(difference->estimate, 0.0);
-  EXPECT_LT(difference->lower(0.95, 1.0), 0.0);
-  EXPECT_GT(difference->upper(0.95, 1.0), 0.0);
+  EXPECT_EQ(difference->limits.estimate, 0.0);
+  EXPECT_LT(difference->limits.lower(0.95, 1.0), 0.0);
+  EXPECT_GT(difference->limits.upper(0.95, 1.0), 0.0);
 }
 
 TEST(Estimation, WithoutARowThatCountsThereIsNone) {
