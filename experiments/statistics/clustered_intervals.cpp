@@ -127,4 +127,11 @@ std::optional<Interval> ClusteredRmsInterval(std::span<const ClusterSum> cluster
   return Interval{.lower = std::exp(0.5 * low), .upper = std::exp(0.5 * high)};
 }
 
+std::optional<Interval> RootMeanSquareInterval(std::span<const double> values,
+                                               const RandomStream& resampling, double confidence) {
+  std::vector<ClusterSum> squares;
+  for (const double x : values) squares.push_back({.sum = x * x, .weight = 1.0});
+  return ClusteredRmsInterval(squares, resampling, confidence);
+}
+
 }  // namespace fenestra

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "core/system/check.h"
-#include "experiments/statistics/clustered_intervals.h"
 
 namespace fenestra {
 namespace {
@@ -57,13 +56,6 @@ std::optional<Interval> MeanInterval(std::span<const double> values, double conf
   const double mean = Mean(values);
   const double half = quantile(t, 1.0 - (1.0 - confidence) / 2.0) * StandardErrorOfMean(values);
   return Interval{.lower = mean - half, .upper = mean + half};
-}
-
-std::optional<Interval> RootMeanSquareInterval(std::span<const double> values,
-                                               const RandomStream& resampling, double confidence) {
-  std::vector<ClusterSum> squares;
-  for (const double x : values) squares.push_back({.sum = x * x, .weight = 1.0});
-  return ClusteredRmsInterval(squares, resampling, confidence);
 }
 
 std::vector<int> Looks(int first, int most) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -121,10 +122,12 @@ std::vector<Row> ProjectTable() {
 }
 
 std::vector<SourceFile> ProjectSources() {
+  // Not of the tree of libraries: examples stand for themselves, as a user's own programs do.
+  const std::set<std::string> others = {"build", "cmake", "examples"};
   std::vector<std::string> folders;
   for (const auto& entry : std::filesystem::directory_iterator(kRoot)) {
     const std::string name = entry.path().filename();
-    if (entry.is_directory() && !name.starts_with(".") && name != "build" && name != "examples") {
+    if (entry.is_directory() && !name.starts_with(".") && !others.contains(name)) {
       folders.push_back(name);
     }
   }

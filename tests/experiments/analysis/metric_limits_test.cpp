@@ -66,23 +66,23 @@ MetricTally HeavyTailed(uint64_t run, int rows) {
   return tally;
 }
 
-constexpr int kRuns = 1000;
+constexpr int kLimitedStudies = 1000;
 
 // How often a limit that the metric only just does not meet is said to hold.
 double WronglyHeld(const char* name, double truth) {
   int held = 0;
-  for (uint64_t run = 0; run < kRuns; ++run) {
+  for (uint64_t run = 0; run < kLimitedStudies; ++run) {
     held += Against(HeavyTailed(run, 200), name, truth, true).Holds(0.95) ? 1 : 0;
   }
-  return static_cast<double>(held) / kRuns;
+  return static_cast<double>(held) / kLimitedStudies;
 }
 
 TEST(MetricLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
   // The truth by a sample so large that its own error, 0.1 %, is a fiftieth of that of 200 rows.
   const double trimmed =
-      HeavyTailed(kRuns, 400'000).Estimate(*FindMetric("trimmed_rmse_mm"))->value;
+      HeavyTailed(kLimitedStudies, 400'000).Estimate(*FindMetric("trimmed_rmse_mm"))->value;
   // 5 % and four standard deviations, a false alarm of 3e-5, and 1 % for what is of first order.
-  const double limit = 0.05 + 0.01 + 4.0 * std::sqrt(0.05 * 0.95 / kRuns);
+  const double limit = 0.05 + 0.01 + 4.0 * std::sqrt(0.05 * 0.95 / kLimitedStudies);
   EXPECT_LE(WronglyHeld("trimmed_rmse_mm", trimmed), limit);
   // The twin: of an rmse of the same rows a limit holds wrongly far more often. 0.98 + 0.02 · 20².
   EXPECT_GT(WronglyHeld("rmse_mm", 10.0 * std::sqrt(3.0 * (0.98 + 8.0))), limit);

@@ -152,13 +152,13 @@ const std::vector<std::string> kTightBounds = {
     "bias(centroid_error_z_mm) <= 0",
     "bias(centroid_error_x_mm) >= 0",
 };
-constexpr int kRuns = 400;
+constexpr int kCheckedStudies = 400;
 constexpr double kFalseAlarm = 0.2;  // So large that so many runs can tell.
 
 // Share of simulated studies in which one of the bounds is called violated.
 double ViolationRate(bool all_in_one_file) {
   int runs_with_violation = 0;
-  for (uint64_t run = 0; run < kRuns; ++run) {
+  for (uint64_t run = 0; run < kCheckedStudies; ++run) {
     const auto rows = SimulatedRows({}, 3, 40, RandomStream(6).Child("run", run));
     int violated = 0;
     if (all_in_one_file) {
@@ -170,12 +170,13 @@ double ViolationRate(bool all_in_one_file) {
     }
     runs_with_violation += violated > 0 ? 1 : 0;
   }
-  return static_cast<double>(runs_with_violation) / kRuns;
+  return static_cast<double>(runs_with_violation) / kCheckedStudies;
 }
 
 TEST(CheckBounds, CallsAFileViolatedNoMoreOftenThanStated) {
   // 4 sigma of a share of 20 % in 400 runs.
-  const double limit = kFalseAlarm + 4.0 * std::sqrt(kFalseAlarm * (1.0 - kFalseAlarm) / kRuns);
+  const double limit =
+      kFalseAlarm + 4.0 * std::sqrt(kFalseAlarm * (1.0 - kFalseAlarm) / kCheckedStudies);
   EXPECT_LE(ViolationRate(true), limit);
   EXPECT_GT(ViolationRate(false), limit);  // Each at the level of the whole file.
 }
@@ -184,11 +185,12 @@ TEST(CheckBounds, SaysHoldsOfABrokenBoundNoMoreOftenThanItsConfidenceAllows) {
   // The same bounds with nothing to spare: one more millionth and they do not hold.
   for (const std::string& bound : kTightBounds) {
     int held = 0;
-    for (uint64_t run = 0; run < kRuns; ++run) {
+    for (uint64_t run = 0; run < kCheckedStudies; ++run) {
       const auto rows = SimulatedRows({}, 3, 40, RandomStream(7).Child("run", run));
       held += VerdictOf(bound, rows) == Verdict::kHolds ? 1 : 0;
     }
-    EXPECT_LE(held, kRuns * 0.05 + 4.0 * std::sqrt(kRuns * 0.05 * 0.95)) << bound;
+    EXPECT_LE(held, kCheckedStudies * 0.05 + 4.0 * std::sqrt(kCheckedStudies * 0.05 * 0.95))
+        << bound;
   }
 }
 

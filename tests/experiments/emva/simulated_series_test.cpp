@@ -21,8 +21,8 @@ ImageSensorOptions TenBitSensor() {
   return sensor;
 }
 
-const FrameSet& Stack(const Series& series, bool dark) {
-  for (const FrameSet& set : series.sets) {
+const ImageSet& Stack(const Series& series, bool dark) {
+  for (const ImageSet& set : series.sets) {
     if (set.is_spatial() && set.is_dark() == dark) return set;
   }
   throw std::logic_error("no stack");
@@ -39,14 +39,14 @@ TEST(SimulatedSeries, HasAPairInLightAndDarkAtEachExposureAndTwoStacks) {
   ASSERT_EQ(series.sets.size(), 2u * 10u + 2u);
   std::set<std::string> names;
   for (size_t i = 0; i < 10; ++i) {
-    const FrameSet& bright = series.sets[2 * i];
-    const FrameSet& dark = series.sets[2 * i + 1];
+    const ImageSet& bright = series.sets[2 * i];
+    const ImageSet& dark = series.sets[2 * i + 1];
     EXPECT_EQ(bright.exposure_s, dark.exposure_s);
     EXPECT_NEAR(bright.exposure_s, 2e-3 * static_cast<double>(i + 1), 1e-9);
     EXPECT_FALSE(bright.is_dark());
     EXPECT_TRUE(dark.is_dark());
   }
-  for (const FrameSet& set : series.sets) {
+  for (const ImageSet& set : series.sets) {
     EXPECT_EQ(set.frames.size(), set.is_spatial() ? 5u : 2u);
     names.insert(set.frames.begin(), set.frames.end());
   }
@@ -58,7 +58,7 @@ TEST(SimulatedSeries, LightIsConstantAndEndsBeyondSaturation) {
   const ImageSensorOptions sensor = TenBitSensor();
   const Series series = PlanSeries(options, sensor);
   const double per_s = series.sets[0].photons / series.sets[0].exposure_s;
-  for (const FrameSet& set : series.sets) {
+  for (const ImageSet& set : series.sets) {
     if (set.is_dark()) continue;
     EXPECT_NEAR(set.photons / set.exposure_s, per_s, 1e-9 * per_s);
   }
@@ -73,7 +73,7 @@ TEST(SimulatedSeries, ExposuresAreWholeMicroseconds) {
   SimulationOptions options = ShortSeries();
   options.exposures = 11;
   options.longest_exposure_s = 1e-3;
-  for (const FrameSet& set : PlanSeries(options, TenBitSensor()).sets) {
+  for (const ImageSet& set : PlanSeries(options, TenBitSensor()).sets) {
     EXPECT_NEAR(1e6 * set.exposure_s, std::round(1e6 * set.exposure_s), 1e-6);
     EXPECT_GE(set.exposure_s, 1e-6);
   }
@@ -85,8 +85,8 @@ TEST(SimulatedSeries, AFramesMeanIsThatOfItsPhotons) {
   const Series series = PlanSeries(options, sensor);
   const FrameReader frames = Simulate(options, sensor, RandomStream(1));
   const PutIn put_in = PutInBy(options, sensor);
-  const FrameSet& bright = Stack(series, false);
-  const FrameSet& dark = Stack(series, true);
+  const ImageSet& bright = Stack(series, false);
+  const ImageSet& dark = Stack(series, true);
   const double electrons = options.quantum_efficiency * bright.photons;
   const double signal_dn = MeanOf(frames(bright, 0)) - MeanOf(frames(dark, 0));
   // 3072 pixels whose sensitivities differ by 1.5 %, and shot noise of √8000 = 90 e, which is 1.1
@@ -103,7 +103,7 @@ TEST(SimulatedSeries, AFrameIsAFunctionOfItsSetAndNumber) {
   const auto differing = [](const cv::Mat1w& a, const cv::Mat1w& b) {
     return cv::countNonZero(a != b);
   };
-  const FrameSet& set = Stack(series, false);
+  const ImageSet& set = Stack(series, false);
   EXPECT_EQ(differing(once(set, 3), again(set, 3)), 0);
   const int most = options.size.area();
   EXPECT_GT(differing(once(set, 3), once(set, 4)), most / 2);
@@ -117,7 +117,7 @@ TEST(SimulatedSeries, FramesOfAStackShareTheCamerasPattern) {
   sensor.noise = false;
   const Series series = PlanSeries(options, sensor);
   const FrameReader frames = Simulate(options, sensor, RandomStream(1));
-  const FrameSet& set = Stack(series, false);
+  const ImageSet& set = Stack(series, false);
   EXPECT_EQ(cv::countNonZero(frames(set, 0) != frames(set, 1)), 0);
   sensor.fixed_pattern = false;
   const cv::Mat1w flat = Simulate(options, sensor, RandomStream(1))(set, 0);

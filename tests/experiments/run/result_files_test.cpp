@@ -50,7 +50,8 @@ TEST_F(ResultFiles, FollowFromTheStoreAlone) {
     EXPECT_TRUE(before.contains(name)) << name;
   }
   const TemporaryFolder other;
-  WriteResultFiles(Opened(folder_.path()), other.path());
+  const Study study = MockStudy(5);
+  WriteResultFiles(Opened(folder_.path()), study, Cells(study), other.path());
   for (const auto& [name, text] : TextsIn(other.path())) {
     ASSERT_TRUE(before.contains(name)) << name;
     EXPECT_EQ(text, before.at(name)) << name;
@@ -61,7 +62,8 @@ TEST_F(ResultFiles, AreAllThereOrAreNot) {
   EXPECT_TRUE(HasResultFiles(folder_.path()));
   fs::remove(folder_ / "summary.md");
   EXPECT_FALSE(HasResultFiles(folder_.path()));
-  WriteResultFiles(Opened(folder_.path()), folder_.path());
+  const Study study = MockStudy(5);
+  WriteResultFiles(Opened(folder_.path()), study, Cells(study), folder_.path());
   EXPECT_TRUE(HasResultFiles(folder_.path()));
 }
 

@@ -99,7 +99,7 @@ TEST_F(RecordedSequenceTest, ASurveyedFrameIsAHit) {
   ASSERT_EQ(summaries.size(), 1u);
   EXPECT_EQ(summaries[0].counts[Outcome::kHit], 1);
   // Read off by hand to about a centimetre; a quarter of the lower side would be 7 cm.
-  EXPECT_LT(*summaries[0].p50_error_m, 0.05);
+  EXPECT_LT(summaries[0].Value("p50_error_mm").value(), 50.0);
 }
 
 TEST_F(RecordedSequenceTest, DetectionsThatWereMadeElsewhereAreScoredAlike) {

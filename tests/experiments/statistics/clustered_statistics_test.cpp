@@ -57,14 +57,14 @@ TEST(ClusteredProportion, NoSuccessIsBoundedByTheNumberOfClusters) {
   EXPECT_LE(LowerProportionLimit(Effective(clusters), 0.95), 1.0 - 0.02277);
 }
 
-/// How often, of `kRuns` simulated studies, a limit at confidence 0.95 is on the wrong side of p.
-/// Half of the variance of a row's success is its replicate's.
-constexpr int kRuns = 2000;
+/// How often, of `kClusteredStudies` simulated studies, a limit at confidence 0.95 is on the wrong
+/// side of p. Half of the variance of a row's success is its replicate's.
+constexpr int kClusteredStudies = 2000;
 
 double WrongSideRate(int replicates, int cells, bool know_clusters) {
   constexpr double kThreshold = -1.2815515655446004;  // P(x > it) = 0.9 for a standard normal x.
   int wrong = 0;
-  for (int run = 0; run < kRuns; ++run) {
+  for (int run = 0; run < kClusteredStudies; ++run) {
     const RandomStream stream = RandomStream(5).Child("run", static_cast<uint64_t>(run));
     std::vector<ClusterCount> clusters;
     for (int r = 0; r < replicates; ++r) {
@@ -85,11 +85,11 @@ double WrongSideRate(int replicates, int cells, bool know_clusters) {
     }
     wrong += LowerProportionLimit(Effective(clusters), 0.95) > 0.9 ? 1 : 0;
   }
-  return static_cast<double>(wrong) / kRuns;
+  return static_cast<double>(wrong) / kClusteredStudies;
 }
 
 // 4 sigma of a share of 5 % in 2000 runs: a false alarm of 3e-5.
-const double kFourSigma = 4.0 * std::sqrt(0.05 * 0.95 / kRuns);
+const double kFourSigma = 4.0 * std::sqrt(0.05 * 0.95 / kClusteredStudies);
 
 TEST(ClusteredProportion, LimitsAreOnTheWrongSideNoMoreOftenThanStated) {
   EXPECT_LE(WrongSideRate(40, 1, true), 0.05 + kFourSigma);
@@ -102,7 +102,7 @@ TEST(ClusteredProportion, ForgettingTheClustersIsFoundOut) {
 
 double MeanWrongSideRate(int replicates, int cells, bool know_clusters) {
   int wrong = 0;
-  for (int run = 0; run < kRuns; ++run) {
+  for (int run = 0; run < kClusteredStudies; ++run) {
     const RandomStream stream = RandomStream(6).Child("run", static_cast<uint64_t>(run));
     std::vector<ClusterSum> clusters;
     for (int r = 0; r < replicates; ++r) {
@@ -118,7 +118,7 @@ double MeanWrongSideRate(int replicates, int cells, bool know_clusters) {
     }
     wrong += MeanOf(clusters).Quantile(0.05) > 0.0 ? 1 : 0;
   }
-  return static_cast<double>(wrong) / kRuns;
+  return static_cast<double>(wrong) / kClusteredStudies;
 }
 
 TEST(ClusteredMean, LimitsAreOnTheWrongSideAsOftenAsStated) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random/random_stream.h"
+#include "experiments/statistics/clustered_intervals.h"
 #include "experiments/statistics/moments.h"
 
 namespace fenestra {

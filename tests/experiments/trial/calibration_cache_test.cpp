@@ -19,7 +19,7 @@ using testing::TemporaryFolder;
 
 // A calibration whose numbers have no short decimal form.
 StatedCalibration Odd() {
-  StereoCalibration calibration = DesignOf({});
+  StereoCalibration calibration = DesignOf(StereoRigOptions());
   calibration.X_RL = Pose(RotationFromVector({0.01 / 3.0, -0.02 / 7.0, 0.0}), {-1.05 / 3.0, 0, 0});
   PairMatrix covariance = PairMatrix::Constant(1e-9 / 3.0);
   covariance(0, 23) = -1e-300 / 7.0;
@@ -33,7 +33,7 @@ struct CacheAnswer {
 };
 
 CacheAnswer Ask(const CalibrationCache& cache, const std::string& content) {
-  CacheAnswer answer{.calibration = {DesignOf({}), PairMatrix::Zero()}};
+  CacheAnswer answer{.calibration = {DesignOf(StereoRigOptions()), PairMatrix::Zero()}};
   answer.calibration = cache.Get(content, [&answer] {
     answer.computed = true;
     return Odd();
