@@ -2,7 +2,9 @@
 
 #include "core/io/image_io.h"
 #include "core/io/temporary_files.h"
+#include "experiments/report/detector_comparison_report.h"
 #include "experiments/report/envelope_report.h"
+#include "experiments/report/error_budget_report.h"
 
 namespace fenestra {
 
