@@ -12,7 +12,6 @@
 namespace fenestra {
 namespace {
 
-using Eigen::Map;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using CameraVector = Eigen::Matrix<double, kCameraParameters, 1>;
@@ -43,15 +42,15 @@ class PoseManifold final : public ceres::Manifold {
 
   bool Plus(const double* x, const double* delta, double* x_plus_delta) const override {
     const Pose X = ToPose(x);
-    const Map<const PoseStep> step(delta);
+    const Eigen::Map<const PoseStep> step(delta);
     if (!step.allFinite()) return false;
-    Map<PoseVector> moved(x_plus_delta);
+    Eigen::Map<PoseVector> moved(x_plus_delta);
     moved = ToVector(
         Pose(RotationFromVector(step.head<3>()) * X.rotation(), X.translation() + step.tail<3>()));
     return true;
   }
   bool PlusJacobian(const double* /*x*/, double* jacobian) const override {
-    Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> by_step(jacobian);
+    Eigen::Map<Eigen::Matrix<double, 7, 6, Eigen::RowMajor>> by_step(jacobian);
     by_step.setIdentity();
     return true;
   }
@@ -85,7 +84,7 @@ class CornersCost final : public ceres::CostFunction {
 
   bool Evaluate(double const* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const Map<const CameraVector> vector(parameters[0]);
+    const Eigen::Map<const CameraVector> vector(parameters[0]);
     if (!vector.allFinite() || vector[0] <= 0.0 || vector[1] <= 0.0) return false;
     const CameraModel camera = camera_.WithParameters(vector);
     const Pose X_LG = ToPose(parameters[1]);
@@ -95,7 +94,7 @@ class CornersCost final : public ceres::CostFunction {
       const Vector3d p_LQ = turned + X_LG.translation();
       const auto seen = camera.Linearise(X_CL * p_LQ);
       if (!seen) return false;
-      Map<Eigen::Vector2d> residual(residuals + 2 * i);
+      Eigen::Map<Eigen::Vector2d> residual(residuals + 2 * i);
       residual = root_weight_ * (corners_[i].pixel - seen->pixel);
       if (jacobians == nullptr) continue;
       SetDerivative(i, 9, seen->by_parameters, jacobians[0]);
@@ -112,7 +111,7 @@ class CornersCost final : public ceres::CostFunction {
   void SetDerivative(size_t corner, int columns, const Derivative& of_pixel,
                      double* jacobian) const {
     if (jacobian == nullptr) return;
-    Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>> rows(
+    Eigen::Map<Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor>> rows(
         jacobian + 2 * corner * static_cast<size_t>(columns), 2, columns);
     rows.setZero();
     rows.leftCols(of_pixel.cols()) = -root_weight_ * of_pixel;
