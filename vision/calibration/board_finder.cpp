@@ -110,7 +110,7 @@ cv::Matx33d BoardToImage(const Corners& corners, const CalibrationBoard& board) 
   return cv::findHomography(on_board, in_image);
 }
 
-Eigen::Vector2d Map(const cv::Matx33d& H, double x_m, double y_m) {
+Eigen::Vector2d Mapped(const cv::Matx33d& H, double x_m, double y_m) {
   const cv::Vec3d mapped = H * cv::Vec3d(x_m, y_m, 1.0);
   return {mapped[0] / mapped[2], mapped[1] / mapped[2]};
 }
@@ -120,9 +120,9 @@ CornerGuess GuessOf(const cv::Matx33d& H, const CalibrationBoard& board, int id,
   const Eigen::Vector3d p_GQ = board.Corner(id);
   const double half_m = 0.5 * board.square_m;
   const Eigen::Vector2d along_row =
-      Map(H, p_GQ.x() + half_m, p_GQ.y()) - Map(H, p_GQ.x() - half_m, p_GQ.y());
+      Mapped(H, p_GQ.x() + half_m, p_GQ.y()) - Mapped(H, p_GQ.x() - half_m, p_GQ.y());
   const Eigen::Vector2d along_column =
-      Map(H, p_GQ.x(), p_GQ.y() + half_m) - Map(H, p_GQ.x(), p_GQ.y() - half_m);
+      Mapped(H, p_GQ.x(), p_GQ.y() + half_m) - Mapped(H, p_GQ.x(), p_GQ.y() - half_m);
   // Distance between opposite sides of the square.
   const double area = std::abs(along_row.x() * along_column.y() - along_row.y() * along_column.x());
   const double width_px = area / std::max(along_row.norm(), along_column.norm());
