@@ -8,6 +8,7 @@
 
 #include "core/random/random_stream.h"
 #include "experiments/analysis/metric_limits.h"
+#include "experiments/statistics/clustered_intervals.h"
 #include "experiments/statistics/intervals.h"
 
 namespace fenestra {

@@ -47,8 +47,8 @@ TEST(SimulatedSeries, HasAPairInLightAndDarkAtEachExposureAndTwoStacks) {
     EXPECT_TRUE(dark.is_dark());
   }
   for (const ImageSet& set : series.sets) {
-    EXPECT_EQ(set.frames.size(), set.is_spatial() ? 5u : 2u);
-    names.insert(set.frames.begin(), set.frames.end());
+    EXPECT_EQ(set.files.size(), set.is_spatial() ? 5u : 2u);
+    names.insert(set.files.begin(), set.files.end());
   }
   EXPECT_EQ(names.size(), 2u * 2u * 10u + 2u * 5u) << "two frames share a file";
 }
@@ -83,7 +83,7 @@ TEST(SimulatedSeries, AFramesMeanIsThatOfItsPhotons) {
   const SimulationOptions options = ShortSeries();
   const ImageSensorOptions sensor = TenBitSensor();
   const Series series = PlanSeries(options, sensor);
-  const FrameReader frames = Simulate(options, sensor, RandomStream(1));
+  const ImageReader frames = Simulate(options, sensor, RandomStream(1));
   const PutIn put_in = PutInBy(options, sensor);
   const ImageSet& bright = Stack(series, false);
   const ImageSet& dark = Stack(series, true);
@@ -97,9 +97,9 @@ TEST(SimulatedSeries, AFramesMeanIsThatOfItsPhotons) {
 TEST(SimulatedSeries, AFrameIsAFunctionOfItsSetAndNumber) {
   const SimulationOptions options = ShortSeries();
   const Series series = PlanSeries(options, TenBitSensor());
-  const FrameReader once = Simulate(options, TenBitSensor(), RandomStream(1));
-  const FrameReader again = Simulate(options, TenBitSensor(), RandomStream(1));
-  const FrameReader other = Simulate(options, TenBitSensor(), RandomStream(2));
+  const ImageReader once = Simulate(options, TenBitSensor(), RandomStream(1));
+  const ImageReader again = Simulate(options, TenBitSensor(), RandomStream(1));
+  const ImageReader other = Simulate(options, TenBitSensor(), RandomStream(2));
   const auto differing = [](const cv::Mat1w& a, const cv::Mat1w& b) {
     return cv::countNonZero(a != b);
   };
@@ -116,7 +116,7 @@ TEST(SimulatedSeries, FramesOfAStackShareTheCamerasPattern) {
   ImageSensorOptions sensor = TenBitSensor();
   sensor.noise = false;
   const Series series = PlanSeries(options, sensor);
-  const FrameReader frames = Simulate(options, sensor, RandomStream(1));
+  const ImageReader frames = Simulate(options, sensor, RandomStream(1));
   const ImageSet& set = Stack(series, false);
   EXPECT_EQ(cv::countNonZero(frames(set, 0) != frames(set, 1)), 0);
   sensor.fixed_pattern = false;
@@ -159,17 +159,17 @@ TEST(SimulatedSeries, AWrittenSeriesReadsBackToTheBit) {
     ImageSensorOptions sensor;
     sensor.output_bits = bits;
     const Series series = PlanSeries(options, sensor);
-    const FrameReader frames = Simulate(options, sensor, RandomStream(1));
+    const ImageReader frames = Simulate(options, sensor, RandomStream(1));
     const fenestra::testing::TemporaryFolder folder;
     std::filesystem::create_directory(folder / "images");
     const auto descriptor = WriteSeries(folder.path(), series, frames);
     const Series read = ReadDescriptor(descriptor);
-    const FrameReader files = FilesBeside(descriptor, read);
+    const ImageReader files = FilesBeside(descriptor, read);
     ASSERT_EQ(read.sets.size(), series.sets.size());
     EXPECT_EQ(read.bits, bits);
     for (size_t i = 0; i < series.sets.size(); ++i) {
       EXPECT_NEAR(read.sets[i].exposure_s, series.sets[i].exposure_s, 1e-15);
-      for (size_t k = 0; k < series.sets[i].frames.size(); ++k) {
+      for (size_t k = 0; k < series.sets[i].files.size(); ++k) {
         EXPECT_EQ(cv::countNonZero(files(read.sets[i], k) != frames(series.sets[i], k)), 0);
       }
     }
