@@ -11,7 +11,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-std::string With(const std::string& design) {
+std::string StudyWithDesign(const std::string& design) {
   return "name: test\nrepetitions: 20\nsensors: [stereo]\ndesign: " + design + R"(
 factors:
   yaw_deg: {uniform: [0, 1]}
@@ -22,7 +22,7 @@ factors:
 }
 
 std::string Correlated(const std::string& list) {
-  return With("{correlations: [" + list + "]}");
+  return StudyWithDesign("{correlations: [" + list + "]}");
 }
 
 std::string Pair(const std::string& first, const std::string& second, const std::string& rho) {
@@ -30,8 +30,8 @@ std::string Pair(const std::string& first, const std::string& second, const std:
 }
 
 TEST(DesignReader, ReadsTheShortAndTheLongForm) {
-  EXPECT_EQ(ReadText(With("monte_carlo")).parts[0].design, SamplingDesign{});
-  EXPECT_EQ(ReadText(With("sobol")), ReadText(With("{method: sobol}")));
+  EXPECT_EQ(ReadText(StudyWithDesign("monte_carlo")).parts[0].design, SamplingDesign{});
+  EXPECT_EQ(ReadText(StudyWithDesign("sobol")), ReadText(StudyWithDesign("{method: sobol}")));
   const Study study = ReadText(Correlated(Pair("yaw_deg", "roll_deg", "-0.25")));
   EXPECT_EQ(study.parts[0].design, (SamplingDesign{.method = DesignMethod::kMonteCarlo,
                                                    .correlations = {{"yaw_deg", "roll_deg", -0.25}},
@@ -40,10 +40,12 @@ TEST(DesignReader, ReadsTheShortAndTheLongForm) {
 
 TEST(DesignReader, WhatIsWrittenIsRead) {
   for (const std::string& text :
-       {With("latin_hypercube"), With("sensitivity"),
-        With("{method: sensitivity, causes: {all: [shot, rig, calibration, yaw_deg], tilt: "
-             "[pitch_deg, roll_deg]}}"),
-        With("{method: sobol, correlations: [" + Pair("yaw_deg", "roll_deg", "0.1") + "]}")}) {
+       {StudyWithDesign("latin_hypercube"), StudyWithDesign("sensitivity"),
+        StudyWithDesign(
+            "{method: sensitivity, causes: {all: [shot, rig, calibration, yaw_deg], tilt: "
+            "[pitch_deg, roll_deg]}}"),
+        StudyWithDesign("{method: sobol, correlations: [" + Pair("yaw_deg", "roll_deg", "0.1") +
+                        "]}")}) {
     EXPECT_EQ(ReadText(ToYaml(ReadText(text))), ReadText(text)) << text;
   }
 }
@@ -65,9 +67,10 @@ struct BadDesign {
 
 TEST(DesignReader, RefusesWhatCannotBe) {
   const std::vector<BadDesign> bad{
-      {With("sobel"), "4:9: unknown design 'sobel'. Did you mean 'sobol'?"},
-      {With("{methd: sobol}"), "unknown key 'methd' in a design. Did you mean 'method'?"},
-      {With("[sobol]"), "4:9: a design must be a mapping (key: value), not a list"},
+      {StudyWithDesign("sobel"), "4:9: unknown design 'sobel'. Did you mean 'sobol'?"},
+      {StudyWithDesign("{methd: sobol}"),
+       "unknown key 'methd' in a design. Did you mean 'method'?"},
+      {StudyWithDesign("[sobol]"), "4:9: a design must be a mapping (key: value), not a list"},
       {Correlated("0.5"), "a correlation must be a mapping"},
       {Correlated("{between: [yaw_deg], spearman: 0.5}"),
        "a correlation must be {between: [FACTOR"},
@@ -83,17 +86,22 @@ TEST(DesignReader, RefusesWhatCannotBe) {
       {Correlated(Pair("yaw_deg", "roll_deg", "0.9") + ", " + Pair("yaw_deg", "pitch_deg", "0.9") +
                   ", " + Pair("roll_deg", "pitch_deg", "-0.5")),
        "no joint distribution has the correlations of part 'main'"},
-      {With("{method: sensitivity, correlations: [" + Pair("yaw_deg", "roll_deg", "0.5") + "]}"),
+      {StudyWithDesign("{method: sensitivity, correlations: [" +
+                       Pair("yaw_deg", "roll_deg", "0.5") + "]}"),
        "a sensitivity design cannot have correlations"},
-      {With("{method: sobol, causes: {noise: [shot]}}"), "causes belong to method: sensitivity"},
-      {With("{method: sensitivity, causes: {noise: [shot], pose: [yaw_deg]}}"),
+      {StudyWithDesign("{method: sobol, causes: {noise: [shot]}}"),
+       "causes belong to method: sensitivity"},
+      {StudyWithDesign("{method: sensitivity, causes: {noise: [shot], pose: [yaw_deg]}}"),
        "these belong to no cause: calibration, pitch_deg, rig, roll_deg"},
-      {With("{method: sensitivity, causes: {noise: [shot, shot]}}"),
+      {StudyWithDesign("{method: sensitivity, causes: {noise: [shot, shot]}}"),
        "'shot' belongs to two causes"},
-      {With("{method: sensitivity, causes: {noise: []}}"), "cause 'noise' must be a list of"},
-      {With("{method: sensitivity, causes: {noise: [schot]}}"), "unknown factor 'schot'"},
-      {With("{method: sensitivity, causes: {all: [shot, rig, calibration, yaw_deg, pitch_deg, "
-            "roll_deg, distance_m]}}"),
+      {StudyWithDesign("{method: sensitivity, causes: {noise: []}}"),
+       "cause 'noise' must be a list of"},
+      {StudyWithDesign("{method: sensitivity, causes: {noise: [schot]}}"),
+       "unknown factor 'schot'"},
+      {StudyWithDesign(
+           "{method: sensitivity, causes: {all: [shot, rig, calibration, yaw_deg, pitch_deg, "
+           "roll_deg, distance_m]}}"),
        "'distance_m' of cause 'all' does not vary in part 'main'"},
   };
   for (const auto& [text, fault] : bad) {

@@ -22,7 +22,7 @@ std::string Envelope(const std::string& over, const std::string& require = "{hit
 }
 
 TEST(StudyRules, AreReadWithTheirDefaults) {
-  const Study stopping = ReadText(With("until: {hit_rate: 0.1, bias_mm: 2}"));
+  const Study stopping = ReadText(StudyWithRule("until: {hit_rate: 0.1, bias_mm: 2}"));
   ASSERT_TRUE(stopping.parts[0].until.has_value());
   EXPECT_EQ(stopping.parts[0].until->first_look, 20);
   EXPECT_EQ(stopping.parts[0].until->targets,
@@ -42,16 +42,18 @@ TEST(StudyRules, WhatIsWrittenIsRead) {
 
 TEST(StudyRules, RefuseWhatCannotWork) {
   const std::vector<std::pair<std::string, std::string>> bad{
-      {With("until: {hitrate: 0.1}"), "unknown key 'hitrate' in until. Did you mean 'hit_rate'?"},
-      {With("until: {first_look: 10}"), "until needs the width of at least one of hit_rate"},
-      {With("until: {hit_rate: 0}"), "hit_rate must be the width of an interval"},
-      {With("until: {hit_rate: 0.1, first_look: 0}"), "first_look must be"},
+      {StudyWithRule("until: {hitrate: 0.1}"),
+       "unknown key 'hitrate' in until. Did you mean 'hit_rate'?"},
+      {StudyWithRule("until: {first_look: 10}"),
+       "until needs the width of at least one of hit_rate"},
+      {StudyWithRule("until: {hit_rate: 0}"), "hit_rate must be the width of an interval"},
+      {StudyWithRule("until: {hit_rate: 0.1, first_look: 0}"), "first_look must be"},
       {StudyWithRule(Envelope("distance")),
        "unknown factor 'distance'. Did you mean 'distance_m'?"},
       {StudyWithRule(Envelope("distance_m", "{}")), "require needs at least one of hit_rate"},
       {StudyWithRule(Envelope("distance_m", "{hit_rate: 1}")), "hit_rate must be a share"},
-      {With("envelope: {over: distance_m}"), "an envelope must be {over: FACTOR"},
-      {With("envelope: {over: distance_m, require: {hit_rate: 0.9}, confidence: 95}"),
+      {StudyWithRule("envelope: {over: distance_m}"), "an envelope must be {over: FACTOR"},
+      {StudyWithRule("envelope: {over: distance_m, require: {hit_rate: 0.9}, confidence: 95}"),
        "confidence must be a number greater than 0.5 and less than 1, not 95"},
       {StudyWithRule(Envelope("azimuth_deg")),
        "needs at least 3 rising numbers as levels of azimuth_deg"},
@@ -59,9 +61,9 @@ TEST(StudyRules, RefuseWhatCannotWork) {
       {StudyWithRule(Envelope("distance_m", "{hit_rate: 0.95}"), "58"),
        "58 repetitions cannot show the requirement with 95 % confidence even if all are good; "
        "about 59 can"},
-      {With("until: {hit_rate: 0.1}\n" + Envelope("distance_m")),
+      {StudyWithRule("until: {hit_rate: 0.1}\n" + Envelope("distance_m")),
        "until and envelope exclude each other"},
-      {With("until: {hit_rate: 0.1}\ndesign: sensitivity"),
+      {StudyWithRule("until: {hit_rate: 0.1}\ndesign: sensitivity"),
        "a sensitivity design has no use for until"},
   };
   for (const auto& [text, fault] : bad) {
