@@ -137,6 +137,8 @@ TEST(FrameFitter, AFrameThatStandsBackIsBehindTheEdgesOfItsWall) {
   const double off_m = (fit.front.p_LO - frame.X_LO.translation()).norm();
   const double sigma_m = std::sqrt(fit.adjustment.covariance.block<3, 3>(3, 3).trace());
   EXPECT_LT(off_m, 4.0 * sigma_m);
+  // At the wall's face it would be as far off as it is set back.
+  EXPECT_LT(off_m, 0.5 * frame.setback_m) << sigma_m;
 }
 
 // A frame of 1 m is a longer base than that of the rig, 0.35 m; a size that is known to 0.01 mm
