@@ -111,8 +111,10 @@ std::string Progress::Rate() const {
   const double elapsed_s = shown_s_ - started_s_;
   if (done_ == done_before_ || elapsed_s <= 0.0) return "";
   const double rate = static_cast<double>(done_ - done_before_) / elapsed_s;
-  return fmt::format("  {:.1f}/s  {} left", rate,
-                     Duration(std::round(static_cast<double>(total_ - done_) / rate)));
+  const double left_s = std::round(static_cast<double>(total_ - done_) / rate);
+  // A guess: tenths of a second would only flicker.
+  const std::string left = left_s < 60.0 ? fmt::format("{:.0f} s", left_s) : Duration(left_s);
+  return fmt::format("  {:.1f}/s  {} left", rate, left);
 }
 
 InterruptWatch::InterruptWatch() {

@@ -60,7 +60,8 @@ TEST(CellRunner, CellsShareARigUnlessTrialsDrawOne) {
   const auto left = [](const SimulatedTrial& simulated) {
     return std::get<StereoCalibration>(simulated.calibration).left.parameters();
   };
-  const Study shared = StudyOf(levels + "  stereo_calibration: exact\n");
+  const Study shared =
+      StudyOf(levels + "  stereo_calibration: exact\n  stereo_rig_per_trial: false\n");
   EXPECT_EQ(left(BenchOf(shared, 0).Simulate(0)), left(BenchOf(shared, 1).Simulate(3)));
   const Study drawn =
       StudyOf(levels + "  stereo_calibration: exact\n  stereo_rig_per_trial: true\n");
