@@ -142,7 +142,7 @@ void Plot::Line(std::span<const cv::Point2d> points, const cv::Scalar& color,
 }
 
 void Plot::VerticalMark(double x, const std::string& label) {
-  if (x < layout_.x.low || x > layout_.x.high) return;
+  if (!(x >= layout_.x.low && x <= layout_.x.high)) return;  // Nor for NaN.
   const int column = static_cast<int>(Place({x, layout_.y.low}).x);
   constexpr int kDash = 6;
   for (int y = inner_.y; y < inner_.br().y; y += 2 * kDash) {
