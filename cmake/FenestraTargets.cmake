@@ -67,7 +67,8 @@ function(fenestra_compile target name)
   get_target_property(optimisation fenestra_precompiled_${name} optimisation)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${optimisation}>)
   target_precompile_headers(${target} REUSE_FROM fenestra_precompiled_${name})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+  set_target_properties(${target} PROPERTIES
+    UNITY_BUILD ${FENESTRA_UNITY} UNITY_BUILD_BATCH_SIZE 12)
 endfunction()
 
 # The folders in which trials spend their time. Optimising all others as much would take more time
@@ -130,5 +131,6 @@ function(fenestra_test name)
         FENESTRA_SOURCE_DIR="${CMAKE_SOURCE_DIR}" FENESTRA_BUILD_DIR="${CMAKE_BINARY_DIR}")
     endif()
   endforeach()
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." NO_PRETTY_VALUES
+    DISCOVERY_TIMEOUT 60)
 endfunction()

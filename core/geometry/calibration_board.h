@@ -31,7 +31,9 @@ struct CalibrationBoard {
 
   /// p_GQ of corner `id` [m].
   Eigen::Vector3d Corner(int id) const {
-    return {(id % corner_columns() + 1) * square_m, (id / corner_columns() + 1) * square_m, 0.0};
+    const int column = id % corner_columns();
+    const int row = id / corner_columns();
+    return {(column + 1) * square_m, (row + 1) * square_m, 0.0};
   }
 
   bool operator==(const CalibrationBoard&) const = default;

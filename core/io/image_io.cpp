@@ -87,13 +87,13 @@ cv::Mat Read(const std::filesystem::path& file) {
 }  // namespace
 
 cv::Mat1b ReadGrayImage(const std::filesystem::path& file) {
-  const cv::Mat image = Read(file);
+  cv::Mat image = Read(file);
   if (image.type() != CV_8UC1) Refuse(file, image, "an 8-bit grey image");
   return image;
 }
 
 cv::Mat3b ReadColorImage(const std::filesystem::path& file) {
-  const cv::Mat image = Read(file);
+  cv::Mat image = Read(file);
   if (image.type() == CV_8UC3) return image;
   if (image.depth() != CV_8U || image.channels() == 2) Refuse(file, image, "an 8-bit colour image");
   cv::Mat3b color(image.size());
@@ -104,7 +104,7 @@ cv::Mat3b ReadColorImage(const std::filesystem::path& file) {
 }
 
 cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
-  const cv::Mat image = Read(file);
+  cv::Mat image = Read(file);
   if (image.type() != CV_16UC1) Refuse(file, image, "a 16-bit single-channel depth image");
   return image;
 }

@@ -44,7 +44,8 @@ struct ParameterInfo {
 /// Names a field of a settings struct to a ParameterTable, for reading and for writing:
 /// FENESTRA_FIELD(lens.blur_sigma_px).
 // clang-format off
-#define FENESTRA_FIELD(path) [](auto& settings) -> auto& { return settings.path; }
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a path of members cannot stand in parentheses.
+#define FENESTRA_FIELD(path) [](auto& settings) -> decltype((settings.path)) { return settings.path; }
 // clang-format on
 
 /// The named parameters of a settings struct: the one place where a name, its unit, its range, its
@@ -110,12 +111,12 @@ class ParameterTable {
   }
 
   ParameterTable& Choice(const std::string& name, Field<std::string> field,
-                         std::vector<std::string> choices, const std::string& description) {
+                         const std::vector<std::string>& choices, const std::string& description) {
     return Add(
         {.name = name,
          .description = description,
          .type = ParameterInfo::Type::kChoice,
-         .choices = std::move(choices)},
+         .choices = choices},
         [field](const Settings& s) { return ParameterValue(field.of_constant(s)); },
         [field](Settings& s, const ParameterValue& value) {
           field.of(s) = std::get<std::string>(value);
@@ -126,7 +127,8 @@ class ParameterTable {
   template <typename Lambda>
   requires std::is_enum_v<std::remove_reference_t<std::invoke_result_t<Lambda, Settings&>>>
       ParameterTable& Choice(const std::string& name, Lambda lambda,
-                             std::vector<std::string> choices, const std::string& description) {
+                             const std::vector<std::string>& choices,
+                             const std::string& description) {
     using Enumeration = std::remove_reference_t<std::invoke_result_t<Lambda, Settings&>>;
     const Field<Enumeration> field(lambda);
     return Add(

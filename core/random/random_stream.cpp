@@ -65,14 +65,14 @@ constexpr uint32_t kWeyl1 = 0xBB67AE85;
 constexpr int kRounds = 10;
 
 // Blocks that are enciphered side by side.
-constexpr int kBlocks = 16;
+constexpr size_t kBlocks = 16;
 
 struct Blocks {
   alignas(64) uint32_t x[4][kBlocks];
 };
 
 FENESTRA_WIDE void Encipher(uint64_t key, uint32_t use, uint64_t first_block, Blocks& blocks) {
-  for (int i = 0; i < kBlocks; ++i) {
+  for (size_t i = 0; i < kBlocks; ++i) {
     const uint64_t counter = first_block + static_cast<uint64_t>(i);
     blocks.x[0][i] = static_cast<uint32_t>(counter);
     blocks.x[1][i] = static_cast<uint32_t>(counter >> 32);
@@ -82,7 +82,7 @@ FENESTRA_WIDE void Encipher(uint64_t key, uint32_t use, uint64_t first_block, Bl
   auto key0 = static_cast<uint32_t>(key);
   auto key1 = static_cast<uint32_t>(key >> 32);
   for (int round = 0; round < kRounds; ++round) {
-    for (int i = 0; i < kBlocks; ++i) {
+    for (size_t i = 0; i < kBlocks; ++i) {
       const uint64_t product0 = static_cast<uint64_t>(kMultiplier0) * blocks.x[0][i];
       const uint64_t product1 = static_cast<uint64_t>(kMultiplier1) * blocks.x[2][i];
       blocks.x[0][i] = static_cast<uint32_t>(product1 >> 32) ^ blocks.x[1][i] ^ key0;

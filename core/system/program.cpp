@@ -8,8 +8,10 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
+#include <span>
 
 namespace fenestra {
 namespace {
@@ -30,18 +32,18 @@ bool Holds(const dl_phdr_info& object, uintptr_t address) {
 }
 
 // Notes lie in memory one after the other, each padded to four bytes.
-std::string IdAmongNotes(uintptr_t at, uintptr_t end) {
+std::string IdAmongNotes(std::span<const unsigned char> notes) {
   const auto pad = [](size_t bytes) { return (bytes + 3) / 4 * 4; };
-  while (at + sizeof(ElfW(Nhdr)) <= end) {
-    const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(at);
-    const auto* bytes =
-        reinterpret_cast<const unsigned char*>(at + sizeof(*note) + pad(note->n_namesz));
+  while (sizeof(ElfW(Nhdr)) <= notes.size()) {
+    const auto* note = reinterpret_cast<const ElfW(Nhdr)*>(notes.data());
+    const unsigned char* bytes = notes.data() + sizeof(*note) + pad(note->n_namesz);
     if (note->n_type == NT_GNU_BUILD_ID) {
       std::string id;
       for (size_t k = 0; k < note->n_descsz; ++k) id += fmt::format("{:02x}", bytes[k]);
       return id;
     }
-    at += sizeof(*note) + pad(note->n_namesz) + pad(note->n_descsz);
+    const size_t size = sizeof(*note) + pad(note->n_namesz) + pad(note->n_descsz);
+    notes = notes.subspan(std::min(size, notes.size()));
   }
   return {};
 }
@@ -52,8 +54,9 @@ int Visit(dl_phdr_info* object, size_t, void* data) {
   for (int i = 0; i < object->dlpi_phnum && search.id.empty(); ++i) {
     const auto& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE) continue;
-    const uintptr_t begin = object->dlpi_addr + segment.p_vaddr;
-    search.id = IdAmongNotes(begin, begin + segment.p_memsz);
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells an address.
+    const auto* begin = reinterpret_cast<const unsigned char*>(object->dlpi_addr + segment.p_vaddr);
+    search.id = IdAmongNotes({begin, segment.p_memsz});
   }
   return 1;
 }

@@ -65,7 +65,7 @@ AdjustedPair Calibrate(const std::vector<NamedView>& views, const CalibrationBoa
   for (const NamedView& view : views) corners.push_back(view.corners);
   const PairState start =
       InitialPair(corners, board, {options.left_size, options.right_size}, options.adjustment);
-  const AdjustedPair unweighted = AdjustPair(start, corners, board, options.adjustment);
+  AdjustedPair unweighted = AdjustPair(start, corners, board, options.adjustment);
   if (!(unweighted.variance() > 0.0)) return unweighted;  // Corners without noise.
   Weigh(unweighted, board, corners);
   return AdjustPair(unweighted.state, corners, board, options.adjustment);

@@ -120,7 +120,7 @@ std::optional<Quadrilateral> Inset(const Quadrilateral& quadrilateral, double ha
     const double reach_px = half_px * (std::abs(inwards.x()) + std::abs(inwards.y()));
     sides[i] = {quadrilateral[i] + reach_px * inwards, along};
   }
-  const auto inset = FromSides(sides);
+  auto inset = FromSides(sides);
   // Beyond its centre a quadrilateral turns inside out but remains convex.
   for (size_t i = 0; inset && i < 4; ++i) {
     const Vector2d side = quadrilateral[(i + 1) % 4] - quadrilateral[i];

@@ -148,7 +148,7 @@ class SharedEquations {
       evenness.Add(pixel, value.weight * residual * residual);
     }
     const SharedByShape shared = StepModel::LineariseShared(fit, strip.share);
-    const Matrix3d inverse = own.inverse();
+    Matrix3d inverse = own.inverse();
     const Eigen::Matrix<double, 3, EdgeNuisance::kShared> own_by_shared =
         inverse * mixed * shared.transpose();
     information_ +=
