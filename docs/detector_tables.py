@@ -61,17 +61,14 @@ def percent(value):
     return text.removesuffix(".0") if float(value) in (0.0, 1.0) else text
 
 
-def cell(metrics, name, form=figure, interval=False):
+def cell(metrics, name, form=figure):
+    """The value and, where there is one, its interval."""
     line = metrics.get(name)
     if line is None:
         return "–"
     ends = [line["lower"], line["upper"]]
     text = form(line["value"])
-    return f"{text} ({form(ends[0])} to {form(ends[1])})" if interval and all(ends) else text
-
-
-def count(metrics, name):
-    return metrics[name]["count"] if name in metrics else "0"
+    return f"{text} ({form(ends[0])} to {form(ends[1])})" if all(ends) else text
 
 
 def table(header, rows):
@@ -82,15 +79,15 @@ def table(header, rows):
     print()
 
 
-COLUMNS = ["in view", "hits [%]", "gross", "wrong", "bias x, y, z", "RMSE", "P95", "/ bound", "time"]
+COLUMNS = ["in view", "hits [%]", "gross [%]", "wrong [%]", "bias x", "bias y", "bias z", "RMSE", "P95",
+           "/ bound", "time"]
 
 
 def summary(metrics):
-    bias = [cell(metrics, f"bias_{axis}_mm") for axis in "xyz"]
-    return [metrics["hit_rate"]["of"], cell(metrics, "hit_rate", percent, True),
-            count(metrics, "gross_rate"), count(metrics, "wrong_window_rate"),
-            ", ".join(bias) if "bias_x_mm" in metrics else "–", cell(metrics, "rmse_mm"),
-            cell(metrics, "p95_error_mm"), cell(metrics, "rms_error_over_bound", interval=True),
+    return [metrics["hit_rate"]["of"],
+            *(cell(metrics, f"{name}_rate", percent) for name in ("hit", "gross", "wrong_window")),
+            *(cell(metrics, f"bias_{axis}_mm") for axis in "xyz"), cell(metrics, "rmse_mm"),
+            cell(metrics, "p95_error_mm"), cell(metrics, "rms_error_over_bound"),
             cell(metrics, "p50_time_ms")]
 
 
@@ -116,7 +113,7 @@ def by_condition(results):
             groups = pool(results, facade, by)
             for name, value in values.items():
                 of_all = [groups.get((value, detector), {}) for detector in DETECTORS]
-                rows.append([facade, name] + [f"{cell(m, 'hit_rate', percent)}, "
+                rows.append([facade, name] + [f"{cell(m, 'hit_rate', percent)}; "
                                               f"{cell(m, 'rms_error_over_bound')}" for m in of_all])
     table(["before", "condition"] + [f"`{d}`" for d in DETECTORS], rows)
 
@@ -131,7 +128,7 @@ def covariances(results):
             metrics = groups.get(("", detector), {})
             within = metrics.get("within_covariance_rate")
             row.append("–" if within is None else
-                       f"{cell(metrics, 'within_covariance_rate', percent)} % of {within['of']}, "
+                       f"{cell(metrics, 'within_covariance_rate', percent)} % of {within['of']}; "
                        f"{cell(metrics, 'p50_normalised_square')}")
         rows.append(row)
     table(["before"] + [f"`{d}`" for d in DETECTORS], rows)
