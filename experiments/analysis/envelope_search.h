@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "experiments/analysis/metric_limits.h"
+#include "experiments/analysis/confidence_limits.h"
 #include "experiments/study/study.h"
 
 namespace fenestra {

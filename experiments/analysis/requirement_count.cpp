@@ -7,7 +7,7 @@ void RequirementCount::Add(const MetricRow& row) {
   attempts_ += row.IsAttempt() ? 1 : 0;
 }
 
-std::optional<MetricLimits> RequirementCount::LimitsOf(const Demand& demand) const {
+std::optional<ConfidenceLimits> RequirementCount::LimitsOf(const Demand& demand) const {
   const Metric metric = FindMetric(demand.metric).value();
   return fenestra::LimitsOf(tally_, {metric, demand.value, !metric.IsShare()});
 }

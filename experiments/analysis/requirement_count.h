@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "experiments/analysis/metric_limits.h"
+#include "experiments/analysis/confidence_limits.h"
 #include "experiments/study/envelope_rule.h"
 
 namespace fenestra {
@@ -11,7 +11,7 @@ namespace fenestra {
 ///
 /// A demand "a share q of attempts is good" holds if the one-sided lower Clopper–Pearson limit of
 /// that share is at least q, and is violated if the upper one is below it
-/// (MetricLimits). For a quantile this is the
+/// (ConfidenceLimits). For a quantile this is the
 /// bound by order statistics. The requirement holds if all demands hold: a false claim needs a
 /// demand that is not met to pass its test, so the error is that of one test (R. L. Berger,
 /// "Multiparameter hypothesis testing and acceptance sampling", Technometrics 24, 1982).
@@ -29,7 +29,7 @@ class RequirementCount {
   int attempts() const { return attempts_; }
 
  private:
-  std::optional<MetricLimits> LimitsOf(const Demand& demand) const;
+  std::optional<ConfidenceLimits> LimitsOf(const Demand& demand) const;
 
   EnvelopeRule rule_;
   MetricTally tally_;

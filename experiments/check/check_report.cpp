@@ -8,12 +8,12 @@
 namespace fenestra {
 namespace {
 
-std::string Subject(const BoundResult& result) {
+std::string Subject(const LimitResult& result) {
   return result.cell.empty() ? result.text : fmt::format("{} | {}", result.text, result.cell);
 }
 
 // How many replicates would decide, or why nothing is known.
-std::string Remark(const BoundResult& result) {
+std::string Remark(const LimitResult& result) {
   std::string remark = result.note;
   if (result.verdict != Verdict::kUndecided || result.rows == 0) return remark;
   if (!remark.empty()) remark += "; ";
@@ -27,17 +27,17 @@ std::string Remark(const BoundResult& result) {
 TextTable TableOf(const CheckResult& result, std::optional<bool> holding) {
   TextTable table;
   table.AddColumn("verdict", TextTable::Align::kLeft);
-  table.AddColumn("bound", TextTable::Align::kLeft);
+  table.AddColumn("limit", TextTable::Align::kLeft);
   table.AddColumn("measured", TextTable::Align::kLeft);
   table.AddColumn("95 % interval", TextTable::Align::kLeft);
   table.AddColumn("n");
   table.AddColumn("remark", TextTable::Align::kLeft);
-  for (const BoundResult& bound : result.bounds) {
-    const bool holds = bound.verdict == Verdict::kHolds;
+  for (const LimitResult& limit : result.limits) {
+    const bool holds = limit.verdict == Verdict::kHolds;
     if (holding && *holding != holds) continue;
-    table.AddRow({ToString(bound.verdict), Subject(bound), bound.measured,
-                  bound.interval.empty() ? kAbsent : bound.interval, std::to_string(bound.rows),
-                  Remark(bound)});
+    table.AddRow({ToString(limit.verdict), Subject(limit), limit.measured,
+                  limit.interval.empty() ? kAbsent : limit.interval, std::to_string(limit.rows),
+                  Remark(limit)});
   }
   return table;
 }
@@ -51,7 +51,7 @@ std::string Meaning(const CheckResult& result) {
   return fmt::format(
       "If all {} held, the chance that any is called violated would be at most {} (each tested at "
       "{:.2g}).\n",
-      result.bounds.size(), result.false_alarm, result.test_level);
+      result.limits.size(), result.false_alarm, result.test_level);
 }
 
 std::string XmlEscaped(const std::string& text) {
@@ -103,18 +103,18 @@ std::string CheckJunitXml(const CheckResult& result, const std::string& suite,
   std::string xml = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"{}\">\n",
-      XmlEscaped(suite), result.bounds.size(), failures, undecided_fails ? 0 : undecided);
-  for (const BoundResult& bound : result.bounds) {
+      XmlEscaped(suite), result.limits.size(), failures, undecided_fails ? 0 : undecided);
+  for (const LimitResult& limit : result.limits) {
     xml += fmt::format("  <testcase classname=\"{}\" name=\"{}\"", XmlEscaped(suite),
-                       XmlEscaped(Subject(bound)));
+                       XmlEscaped(Subject(limit)));
     const std::string message = XmlEscaped(
-        fmt::format("measured {} in {} rows. {}", bound.measured, bound.rows, Remark(bound)));
-    const bool fails = bound.verdict == Verdict::kViolated ||
-                       (bound.verdict == Verdict::kUndecided && undecided_fails);
+        fmt::format("measured {} in {} rows. {}", limit.measured, limit.rows, Remark(limit)));
+    const bool fails = limit.verdict == Verdict::kViolated ||
+                       (limit.verdict == Verdict::kUndecided && undecided_fails);
     if (fails) {
       xml += fmt::format(">\n    <failure message=\"{}: {}\"/>\n  </testcase>\n",
-                         ToString(bound.verdict), message);
-    } else if (bound.verdict == Verdict::kUndecided) {
+                         ToString(limit.verdict), message);
+    } else if (limit.verdict == Verdict::kUndecided) {
       xml += fmt::format(">\n    <skipped message=\"undecided: {}\"/>\n  </testcase>\n", message);
     } else {
       xml += fmt::format(">\n    <system-out>{}</system-out>\n  </testcase>\n", message);

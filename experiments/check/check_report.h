@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "experiments/check/bound_check.h"
+#include "experiments/check/limit_check.h"
 
 namespace fenestra {
 
@@ -13,7 +13,7 @@ std::string CheckForTerminal(const CheckResult& result);
 /// folded away.
 std::string CheckMarkdown(const CheckResult& result);
 
-/// JUnit XML as CI systems read it: a violated bound is a failure, an undecided one skipped, or a
+/// JUnit XML as CI systems read it: a violated limit is a failure, an undecided one skipped, or a
 /// failure, too, where `undecided_fails`.
 std::string CheckJunitXml(const CheckResult& result, const std::string& suite,
                           bool undecided_fails);

@@ -20,18 +20,18 @@ std::string WithUnit(double value, const Metric& metric) {
   return Significant(value) + (unit.empty() ? "" : " " + unit);
 }
 
-std::string ShownOf(const Bound& bound, const MetricEstimate& estimate, const MetricTally& tally) {
-  const Metric& metric = bound.metric;
+std::string ShownOf(const Limit& limit, const MetricEstimate& estimate, const MetricTally& tally) {
+  const Metric& metric = limit.metric;
   if (metric.IsShare()) return Percent(estimate.value);
   if (metric.kind != Kind::kQuantile) return WithUnit(estimate.value, metric);
   int within = 0;
   const double scale = ScaleOf(metric);
   for (const Sample& sample : SamplesOf(tally.rows(), metric)) {
     const double value = scale * sample.value;
-    within += (bound.is_upper ? value <= bound.limit : value < bound.limit) ? 1 : 0;
+    within += (limit.is_upper ? value <= limit.value : value < limit.value) ? 1 : 0;
   }
   return fmt::format("{} ({} within {})", WithUnit(estimate.value, metric),
-                     Percent(static_cast<double>(within) / estimate.of), bound.limit);
+                     Percent(static_cast<double>(within) / estimate.of), limit.value);
 }
 
 std::string IntervalText(const Metric& metric, const std::optional<Interval>& interval) {
@@ -48,18 +48,18 @@ std::string WarningOf(double largest_share, Quantity quantity) {
       100.0 * largest_share, ToString(quantity), ToString(quantity));
 }
 
-std::optional<Estimation> EstimateMetric(const Bound& bound, std::span<const SelectedRow> rows) {
+std::optional<Estimation> EstimateMetric(const Limit& limit, std::span<const SelectedRow> rows) {
   MetricTally tally;
   for (const SelectedRow& row : rows) tally.Add(row.now);
-  const auto estimate = tally.Estimate(bound.metric);
-  auto limits = LimitsOf(tally, {bound.metric, bound.limit, bound.is_upper});
+  const auto estimate = tally.Estimate(limit.metric);
+  auto limits = LimitsOf(tally, {limit.metric, limit.value, limit.is_upper});
   if (!estimate || !limits) return std::nullopt;
   const double largest_share = limits->largest_share.value_or(0.0);
   return Estimation{.limits = std::move(*limits),
                     .rows = estimate->of,
-                    .shown = ShownOf(bound, *estimate, tally),
-                    .interval = IntervalText(bound.metric, estimate->interval),
-                    .warning = WarningOf(largest_share, bound.metric.quantity)};
+                    .shown = ShownOf(limit, *estimate, tally),
+                    .interval = IntervalText(limit.metric, estimate->interval),
+                    .warning = WarningOf(largest_share, limit.metric.quantity)};
 }
 
 // Values of pairs that both hit, with the clusters of their rows.
@@ -89,8 +89,8 @@ double LargestOverSum(const std::vector<Sample>& squares) {
   return sum > 0.0 ? largest / sum : 0.0;
 }
 
-std::optional<Estimation> EstimateRmseRatio(const Bound& bound, std::span<const SelectedRow> rows) {
-  const Quantity quantity = bound.metric.quantity;
+std::optional<Estimation> EstimateRmseRatio(const Limit& limit, std::span<const SelectedRow> rows) {
+  const Quantity quantity = limit.metric.quantity;
   const auto now = OfPairsOfHits(rows, quantity, [](double a, double) { return a * a; });
   const auto before = OfPairsOfHits(rows, quantity, [](double, double b) { return b * b; });
   if (now.empty()) return std::nullopt;
@@ -109,8 +109,8 @@ std::optional<Estimation> EstimateRmseRatio(const Bound& bound, std::span<const 
       .warning = WarningOf(std::max(LargestOverSum(now), LargestOverSum(before)), quantity)};
   result.interval = fmt::format("{} to {}", Significant(result.limits.lower(0.975, 1.0)),
                                 Significant(result.limits.upper(0.975, 1.0)));
-  result.limits.limit = bound.limit;
-  result.limits.is_upper = bound.is_upper;
+  result.limits.limit = limit.value;
+  result.limits.is_upper = limit.is_upper;
   return result;
 }
 
@@ -129,15 +129,15 @@ std::vector<Sample> OnlyAt(bool now, const Metric& rate, std::span<const Selecte
   return samples;
 }
 
-std::optional<Estimation> EstimateRateDifference(const Bound& bound,
+std::optional<Estimation> EstimateRateDifference(const Limit& limit,
                                                  std::span<const SelectedRow> rows) {
-  const std::vector<Sample> gained = OnlyAt(true, bound.metric, rows);
-  const std::vector<Sample> lost = OnlyAt(false, bound.metric, rows);
+  const std::vector<Sample> gained = OnlyAt(true, limit.metric, rows);
+  const std::vector<Sample> lost = OnlyAt(false, limit.metric, rows);
   if (gained.empty()) return std::nullopt;
   double net = 0.0;
   for (size_t i = 0; i < gained.size(); ++i) net += gained[i].value - lost[i].value;
-  const MetricLimits up = ShareLimits(gained);
-  const MetricLimits down = ShareLimits(lost);
+  const ConfidenceLimits up = ShareLimits(gained);
+  const ConfidenceLimits down = ShareLimits(lost);
   Estimation result{.limits = up, .rows = static_cast<int>(gained.size())};
   result.shown = fmt::format("{:+.1f} points", 100.0 * net / static_cast<double>(gained.size()));
   const auto half = [](double confidence) { return 0.5 + 0.5 * confidence; };
@@ -151,17 +151,17 @@ std::optional<Estimation> EstimateRateDifference(const Bound& bound,
       fmt::format("{:+.1f} to {:+.1f} points", 100.0 * result.limits.lower(0.975, 1.0),
                   100.0 * result.limits.upper(0.975, 1.0));
   result.limits.estimate = net / static_cast<double>(gained.size());
-  result.limits.limit = bound.limit;
-  result.limits.is_upper = bound.is_upper;
+  result.limits.limit = limit.value;
+  result.limits.is_upper = limit.is_upper;
   return result;
 }
 
 }  // namespace
 
-std::optional<Estimation> Estimate(const Bound& bound, std::span<const SelectedRow> rows) {
-  if (!bound.to_baseline) return EstimateMetric(bound, rows);
-  return bound.metric.IsShare() ? EstimateRateDifference(bound, rows)
-                                : EstimateRmseRatio(bound, rows);
+std::optional<Estimation> Estimate(const Limit& limit, std::span<const SelectedRow> rows) {
+  if (!limit.to_baseline) return EstimateMetric(limit, rows);
+  return limit.metric.IsShare() ? EstimateRateDifference(limit, rows)
+                                : EstimateRmseRatio(limit, rows);
 }
 
 }  // namespace fenestra

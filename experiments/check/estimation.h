@@ -4,12 +4,12 @@
 #include <span>
 #include <string>
 
-#include "experiments/analysis/metric_limits.h"
-#include "experiments/check/bound.h"
+#include "experiments/analysis/confidence_limits.h"
+#include "experiments/check/limit.h"
 
 namespace fenestra {
 
-/// A row that a bound speaks of, and the same trial in the baseline.
+/// A row that a limit speaks of, and the same trial in the baseline.
 struct SelectedRow {
   const TrialRecord* row;
   MetricRow now;
@@ -17,9 +17,9 @@ struct SelectedRow {
   std::optional<MetricRow> before{};
 };
 
-/// What rows tell of the number that a bound limits.
+/// What rows tell of the number that a limit limits.
 struct Estimation {
-  MetricLimits limits;
+  ConfidenceLimits limits;
   int rows = 0;            ///< That count.
   std::string shown{};     ///< The estimate for people, with its unit.
   std::string interval{};  ///< With 95 %; empty where there is none.
@@ -32,6 +32,6 @@ struct Estimation {
 /// for clusters.
 ///
 /// nullopt with no row that counts (no attempt, no hit).
-std::optional<Estimation> Estimate(const Bound& bound, std::span<const SelectedRow> rows);
+std::optional<Estimation> Estimate(const Limit& limit, std::span<const SelectedRow> rows);
 
 }  // namespace fenestra

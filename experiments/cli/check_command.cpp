@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CheckArguments {
-  fs::path bounds;
+  fs::path limits;
   fs::path results;
   fs::path baseline;
   StudyRunArguments run;
@@ -32,18 +32,18 @@ ResultStore OpenResults(const fs::path& path) {
   return ResultStore::OpenReadOnly(StoreFile(path));
 }
 
-// A study that a file of bounds names is a built-in one or stands beside it.
-fs::path StudyFile(const fs::path& bounds, const std::string& study) {
-  const fs::path beside = bounds.parent_path() / study;
+// A study that a file of limits names is a built-in one or stands beside it.
+fs::path StudyFile(const fs::path& limits, const std::string& study) {
+  const fs::path beside = limits.parent_path() / study;
   return fs::is_regular_file(beside) ? beside : FindStudy(study);
 }
 
-// Runs the study of the bounds; returns the folder of its results.
-fs::path Run(const CheckArguments& arguments, const BoundFile& file) {
+// Runs the study of the limits; returns the folder of its results.
+fs::path Run(const CheckArguments& arguments, const LimitFile& file) {
   if (file.study.empty()) {
-    throw InputError(arguments.bounds, "names no study to run; give --results DIR");
+    throw InputError(arguments.limits, "names no study to run; give --results DIR");
   }
-  const StudyRun run = MakeStudyRun(StudyFile(arguments.bounds, file.study), arguments.run);
+  const StudyRun run = MakeStudyRun(StudyFile(arguments.limits, file.study), arguments.run);
   if (!RunWithProgress(run).complete()) {
     throw std::runtime_error("interrupted; the same command goes on from there");
   }
@@ -51,38 +51,38 @@ fs::path Run(const CheckArguments& arguments, const BoundFile& file) {
 }
 
 int Check(const CheckArguments& arguments) {
-  const BoundFile file = ReadBoundFile(YamlReader::FromFile(arguments.bounds));
+  const LimitFile file = ReadLimitFile(YamlReader::FromFile(arguments.limits));
   std::vector<TrialRecord> baseline;
   if (!arguments.baseline.empty()) baseline = OpenResults(arguments.baseline).Rows();
   const fs::path results = arguments.results.empty() ? Run(arguments, file) : arguments.results;
   const ResultStore store = OpenResults(results);
   const CheckResult result =
-      CheckBounds(arguments.bounds.string(), file, StudyOf(store, results), store.Rows(), baseline);
+      CheckLimits(arguments.limits.string(), file, StudyOf(store, results), store.Rows(), baseline);
   fmt::print("{}", CheckForTerminal(result));
   if (!arguments.junit.empty()) {
     WriteFileAtomically(arguments.junit,
-                        CheckJunitXml(result, arguments.bounds.stem().string(), arguments.strict));
+                        CheckJunitXml(result, arguments.limits.stem().string(), arguments.strict));
   }
   if (!arguments.markdown.empty()) {
     WriteFileAtomically(arguments.markdown, CheckMarkdown(result));
   }
   const bool fails = result.Count(Verdict::kViolated) > 0 ||
                      (arguments.strict && result.Count(Verdict::kUndecided) > 0);
-  return fails ? kBoundViolated : kDone;
+  return fails ? kLimitViolated : kDone;
 }
 
 }  // namespace
 
 void AddCheckCommand(Command program) {
-  Command command = program.AddCommand("check", "Holds results against bounds, as a CI gate does");
+  Command command = program.AddCommand("check", "Holds results against limits, as a CI gate does");
   command.Footer(
       "Examples:\n"
-      "  fenestra check bounds.yaml                            runs the study that it names\n"
-      "  fenestra check bounds.yaml --results results/paper\n"
-      "  fenestra check bounds.yaml --results new --baseline old --markdown comment.md\n"
-      "Exit codes: 0 no bound is violated, 1 one is (with --strict: or is undecided).");
+      "  fenestra check limits.yaml                            runs the study that it names\n"
+      "  fenestra check limits.yaml --results results/paper\n"
+      "  fenestra check limits.yaml --results new --baseline old --markdown comment.md\n"
+      "Exit codes: 0 no limit is violated, 1 one is (with --strict: or is undecided).");
   const auto arguments = std::make_shared<CheckArguments>();
-  command.AddOption("BOUNDS", arguments->bounds, "File of bounds (YAML)").Required();
+  command.AddOption("LIMITS", arguments->limits, "File of limits (YAML)").Required();
   Option results =
       command.AddOption("--results", arguments->results, "Results to check; else the study is run");
   command.AddOption("--baseline", arguments->baseline,
@@ -93,7 +93,7 @@ void AddCheckCommand(Command program) {
   command.AddOption("--junit", arguments->junit, "Write JUnit XML to this file");
   command.AddOption("--markdown", arguments->markdown,
                     "Write a comment for a pull request to this file");
-  command.AddFlag("--strict", arguments->strict, "Undecided bounds fail, too");
+  command.AddFlag("--strict", arguments->strict, "Undecided limits fail, too");
   command.Action([arguments] { return Check(*arguments); });
 }
 

@@ -17,7 +17,7 @@ namespace fenestra::cli {
 /// Exit codes of the program.
 enum ExitCode : int {
   kDone = 0,
-  kBoundViolated = 1,
+  kLimitViolated = 1,
   kInputError = 2,
   kFailure = 3,
 };

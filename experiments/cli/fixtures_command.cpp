@@ -152,7 +152,7 @@ void AddFixturesCommand(Command program) {
       .ShowDefault();
   command.AddOption("--cells", arguments->selection.cells, "Only these cells (0,3-5)");
   command.AddOption("--where", arguments->selection.where,
-                    "Only trials with these values, as in the where of a bound");
+                    "Only trials with these values, as in the where of a limit");
   command
       .AddOption("--format", arguments->formats,
                  "bundle, tum (RGB-D), euroc (stereo), several with commas, or all")

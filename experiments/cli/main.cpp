@@ -23,7 +23,7 @@ constexpr const char* kExamples =
     "  fenestra run paper --trials 100         the same with 100 trials per cell\n"
     "  fenestra replay results/paper 7/3       one recorded trial again\n"
     "  fenestra list factors                   all that a study can vary\n"
-    "Exit codes: 0 done, 1 a checked bound is violated, 2 input error, 3 anything else.";
+    "Exit codes: 0 done, 1 a checked limit is violated, 2 input error, 3 anything else.";
 
 int Main(int argc, char** argv) {
   // Trials run in parallel; a single trial is single-threaded, or its times would mean nothing.

@@ -6,7 +6,7 @@
 
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
-#include "experiments/check/bound_text.h"
+#include "experiments/check/limit_text.h"
 #include "experiments/cli/commands.h"
 #include "experiments/report/pooled_report.h"
 #include "experiments/run/result_files.h"
@@ -41,7 +41,7 @@ std::vector<Condition> ConditionsOf(const Study& study, std::span<const Cell> ce
     const std::vector<std::string> objections = RowSelection(study, cells).Objections(conditions);
     if (!objections.empty()) throw InputError("--where", objections.front());
     return conditions;
-  } catch (const BoundTextError& error) {
+  } catch (const LimitTextError& error) {
     throw InputError("--where", fmt::format("this condition {}", error.what()));
   }
 }

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/random/random_stream.h"
-#include "experiments/analysis/metric_limits.h"
+#include "experiments/analysis/confidence_limits.h"
 #include "experiments/statistics/clustered_intervals.h"
 #include "experiments/statistics/intervals.h"
 

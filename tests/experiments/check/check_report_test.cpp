@@ -11,7 +11,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 CheckResult Example() {
-  return {.bounds = {{.text = "rate(hit) >= 0.9",
+  return {.limits = {{.text = "rate(hit) >= 0.9",
                       .verdict = Verdict::kHolds,
                       .measured = "98.0 %",
                       .rows = 50,
@@ -45,11 +45,11 @@ TEST(CheckReport, MarkdownFoldsAwayWhatHolds) {
 }
 
 TEST(CheckReport, JunitCountsAndEscapes) {
-  const std::string lenient = CheckJunitXml(Example(), "bounds", false);
+  const std::string lenient = CheckJunitXml(Example(), "limits", false);
   EXPECT_THAT(lenient, AllOf(HasSubstr("tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\""),
                              HasSubstr("&lt;= 15 where detector = &quot;a&amp;b&quot;"),
                              Not(HasSubstr("a&b"))));
-  const std::string strict = CheckJunitXml(Example(), "bounds", true);
+  const std::string strict = CheckJunitXml(Example(), "limits", true);
   EXPECT_THAT(strict, HasSubstr("failures=\"2\" errors=\"0\" skipped=\"0\""));
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/random/random_stream.h"
-#include "experiments/check/bound_text.h"
+#include "experiments/check/limit_text.h"
 #include "experiments/statistics/moments.h"
 #include "tests/experiments/trial/record_examples.h"
 
@@ -26,9 +26,9 @@ std::vector<SelectedRow> Selected(const std::vector<TrialRecord>& rows, int rows
   return selected;
 }
 
-std::optional<Estimation> EstimateOf(const std::string& bound, const std::vector<TrialRecord>& rows,
+std::optional<Estimation> EstimateOf(const std::string& limit, const std::vector<TrialRecord>& rows,
                                      int rows_per_cluster = 1) {
-  return Estimate(ParseBound(bound, 0.95), Selected(rows, rows_per_cluster));
+  return Estimate(ParseLimit(limit, 0.95), Selected(rows, rows_per_cluster));
 }
 
 std::vector<TrialRecord> Hits(int hits, int misses) {
@@ -72,14 +72,14 @@ TEST(Estimation, RowsThatRepeatEachOtherCountOnce) {
 }
 
 TEST(Estimation, MoreRowsOfTheSameScatterAreMoreCertain) {
-  for (const char* bound : {"rate(hit) >= 0.5", "rmse(centroid_error_mm) <= 20",
+  for (const char* limit : {"rate(hit) >= 0.5", "rmse(centroid_error_mm) <= 20",
                             "bias(centroid_error_z_mm) <= 5", "p50(centroid_error_mm) <= 9"}) {
-    const auto some = EstimateOf(bound, NormalHits(60, 3.0, 1));
-    ASSERT_TRUE(some.has_value()) << bound;
+    const auto some = EstimateOf(limit, NormalHits(60, 3.0, 1));
+    ASSERT_TRUE(some.has_value()) << limit;
     const double width = some->limits.upper(0.95, 1.0) - some->limits.lower(0.95, 1.0);
     EXPECT_LT(some->limits.upper(0.95, 4.0) - some->limits.lower(0.95, 4.0), 0.7 * width + 1e-12)
-        << bound;
-    EXPECT_LE(some->limits.lower(0.99, 1.0), some->limits.lower(0.95, 1.0)) << bound;
+        << limit;
+    EXPECT_LE(some->limits.lower(0.99, 1.0), some->limits.lower(0.95, 1.0)) << limit;
   }
 }
 
@@ -131,15 +131,15 @@ TEST(Estimation, AgainstABaselineEqualRowsHaveTheRatioOneWithoutAnyDoubt) {
   const std::vector<TrialRecord> rows = NormalHits(30, 0.0, 5);
   std::vector<SelectedRow> selected = Selected(rows);
   for (SelectedRow& row : selected) row.before = row.now;
-  Bound bound = ParseBound("rmse(centroid_error_mm) <= 1.1", 0.95);
-  bound.to_baseline = true;
-  const auto ratio = Estimate(bound, selected);
+  Limit limit = ParseLimit("rmse(centroid_error_mm) <= 1.1", 0.95);
+  limit.to_baseline = true;
+  const auto ratio = Estimate(limit, selected);
   ASSERT_TRUE(ratio.has_value());
   EXPECT_NEAR(ratio->limits.estimate, 1.0, 1e-12);
   EXPECT_NEAR(ratio->limits.upper(0.95, 1.0), 1.0, 1e-9);
-  bound = ParseBound("rate(hit) >= 0.9", 0.95);
-  bound.to_baseline = true;
-  const auto difference = Estimate(bound, selected);
+  limit = ParseLimit("rate(hit) >= 0.9", 0.95);
+  limit.to_baseline = true;
+  const auto difference = Estimate(limit, selected);
   EXPECT_EQ(difference->limits.estimate, 0.0);
   EXPECT_LT(difference->limits.lower(0.95, 1.0), 0.0);
   EXPECT_GT(difference->limits.upper(0.95, 1.0), 0.0);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/io/input_error.h"
-#include "experiments/check/bound_check.h"
-#include "experiments/check/bound_text.h"
+#include "experiments/check/limit_check.h"
+#include "experiments/check/limit_text.h"
 #include "tests/experiments/check/simulated_rows.h"
 
 namespace fenestra {
@@ -18,7 +18,7 @@ using testing::StudyOfThreeDistances;
 
 CheckResult Compare(const std::vector<TrialRecord>& now, const std::vector<TrialRecord>& before) {
   static const Study kStudy = StudyOfThreeDistances(100);
-  return CheckBounds("bounds.yaml", {}, kStudy, now, before);
+  return CheckLimits("limits.yaml", {}, kStudy, now, before);
 }
 
 std::vector<TrialRecord> Rows(const RowLaw& law, uint64_t luck, int cells = 1, int trials = 200) {
@@ -28,9 +28,9 @@ std::vector<TrialRecord> Rows(const RowLaw& law, uint64_t luck, int cells = 1, i
 TEST(Regression, TheSameRowsHold) {
   const auto rows = Rows({}, 0);
   const CheckResult result = Compare(rows, rows);
-  ASSERT_EQ(result.bounds.size(), 2u);
+  ASSERT_EQ(result.limits.size(), 2u);
   EXPECT_EQ(result.Count(Verdict::kHolds), 2);
-  EXPECT_EQ(result.bounds.front().note, "the same in every trial");
+  EXPECT_EQ(result.limits.front().note, "the same in every trial");
 }
 
 TEST(Regression, AFifthMoreErrorIsFoundInTwoHundredTrials) {
@@ -40,11 +40,11 @@ TEST(Regression, AFifthMoreErrorIsFoundInTwoHundredTrials) {
   for (uint64_t run = 0; run < kRuns; ++run) {
     const CheckResult result = Compare(Rows({.sigma_mm = 12.0, .hit_rate = 1.0}, 2 * run + 1),
                                        Rows({.hit_rate = 1.0}, 2 * run));
-    found += result.bounds.front().verdict == Verdict::kViolated ? 1 : 0;
+    found += result.limits.front().verdict == Verdict::kViolated ? 1 : 0;
   }
   EXPECT_GE(found, 95);
   const CheckResult paired = Compare(Rows({.sigma_mm = 12.0}, 0, 1, 10), Rows({}, 0, 1, 10));
-  EXPECT_EQ(paired.bounds.front().verdict, Verdict::kViolated);
+  EXPECT_EQ(paired.limits.front().verdict, Verdict::kViolated);
 }
 
 TEST(Regression, DetectorsThatAreEquallyGoodAreRarelyCalledWorse) {
@@ -60,7 +60,7 @@ TEST(Regression, DetectorsThatAreEquallyGoodAreRarelyCalledWorse) {
 
 TEST(Regression, LostHitsAreFound) {
   const CheckResult result = Compare(Rows({.hit_rate = 0.85}, 0), Rows({.hit_rate = 0.95}, 0));
-  EXPECT_EQ(result.bounds[1].verdict, Verdict::kViolated);
+  EXPECT_EQ(result.limits[1].verdict, Verdict::kViolated);
 }
 
 TEST(Regression, ABaselineOfAnotherStudyIsRefused) {
@@ -68,20 +68,20 @@ TEST(Regression, ABaselineOfAnotherStudyIsRefused) {
   EXPECT_THROW(Compare(Rows({}, 0, 1, 20), Rows({}, 0, 1, 10)), InputError);
 }
 
-TEST(Regression, BoundsMayNameTheBaseline) {
+TEST(Regression, LimitsMayNameTheBaseline) {
   static const Study kStudy = StudyOfThreeDistances(100);
-  BoundFile file;
+  LimitFile file;
   for (const char* text :
        {"rmse(centroid_error_mm) <= 1.3 times baseline",
         "rmse(centroid_error_mm) <= 1.1 times baseline", "rate(hit) >= baseline - 0.05"}) {
-    file.bounds.push_back(ParseBound(text, 0.95));
+    file.limits.push_back(ParseLimit(text, 0.95));
   }
   const auto now = Rows({.sigma_mm = 12.0}, 0);
-  const CheckResult result = CheckBounds("bounds.yaml", file, kStudy, now, Rows({}, 0));
-  EXPECT_EQ(result.bounds[0].verdict, Verdict::kHolds);
-  EXPECT_EQ(result.bounds[1].verdict, Verdict::kViolated);
-  EXPECT_EQ(result.bounds[2].verdict, Verdict::kHolds);
-  EXPECT_EQ(result.bounds[0].measured, "1.20 times");
+  const CheckResult result = CheckLimits("limits.yaml", file, kStudy, now, Rows({}, 0));
+  EXPECT_EQ(result.limits[0].verdict, Verdict::kHolds);
+  EXPECT_EQ(result.limits[1].verdict, Verdict::kViolated);
+  EXPECT_EQ(result.limits[2].verdict, Verdict::kHolds);
+  EXPECT_EQ(result.limits[0].measured, "1.20 times");
 }
 
 }  // namespace

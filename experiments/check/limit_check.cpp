@@ -1,4 +1,4 @@
-#include "experiments/check/bound_check.h"
+#include "experiments/check/limit_check.h"
 
 #include <fmt/format.h>
 
@@ -24,15 +24,15 @@ constexpr double kToleratedLoss = 0.05;
 constexpr double kRegressionConfidence = 0.95;
 constexpr double kMostReplicates = 1e7;
 
-/// A bound and the rows that it is held against.
+/// A limit and the rows that it is held against.
 struct Task {
-  Bound bound;
+  Limit limit;
   std::string cell;
   std::vector<SelectedRow> rows;
 };
 
 // The least growth of the number of replicates that decides, by doubling and bisection.
-std::optional<long> ReplicatesToDecide(const MetricLimits& e, double confidence, double level) {
+std::optional<long> ReplicatesToDecide(const ConfidenceLimits& e, double confidence, double level) {
   const auto decided = [&](double growth) {
     return e.Holds(confidence, growth) || e.IsViolated(level, growth);
   };
@@ -48,13 +48,13 @@ std::optional<long> ReplicatesToDecide(const MetricLimits& e, double confidence,
   return static_cast<long>(std::ceil(high * e.clusters));
 }
 
-BoundResult Judge(const Task& task, double level) {
-  BoundResult result{.text = task.bound.text,
-                     .line = task.bound.line,
+LimitResult Judge(const Task& task, double level) {
+  LimitResult result{.text = task.limit.text,
+                     .line = task.limit.line,
                      .cell = task.cell,
                      .measured = kAbsent,
-                     .confidence = task.bound.confidence};
-  const auto estimation = Estimate(task.bound, task.rows);
+                     .confidence = task.limit.confidence};
+  const auto estimation = Estimate(task.limit, task.rows);
   if (!estimation) {
     result.note = "no row counts for this metric";
     return result;
@@ -64,24 +64,24 @@ BoundResult Judge(const Task& task, double level) {
   result.rows = estimation->rows;
   result.clusters = estimation->limits.clusters;
   result.note = estimation->warning;
-  if (estimation->limits.Holds(task.bound.confidence)) {
+  if (estimation->limits.Holds(task.limit.confidence)) {
     result.verdict = Verdict::kHolds;
   } else if (estimation->limits.IsViolated(level)) {
     result.verdict = Verdict::kViolated;
   } else {
     result.replicates_to_decide =
-        ReplicatesToDecide(estimation->limits, task.bound.confidence, level);
+        ReplicatesToDecide(estimation->limits, task.limit.confidence, level);
   }
   return result;
 }
 
-BoundResult RegressionResult(const std::string& text, const PairedTests& tests, double p,
-                             double level, const Bound& bound, std::span<const SelectedRow> rows) {
-  BoundResult result{.text = text,
+LimitResult RegressionResult(const std::string& text, const PairedTests& tests, double p,
+                             double level, const Limit& limit, std::span<const SelectedRow> rows) {
+  LimitResult result{.text = text,
                      .rows = tests.pairs,
                      .clusters = tests.clusters,
                      .confidence = kRegressionConfidence};
-  const auto estimation = Estimate(bound, rows);
+  const auto estimation = Estimate(limit, rows);
   result.measured = estimation ? estimation->shown : kAbsent;
   if (estimation) result.interval = estimation->interval;
   result.note = tests.changed == 0 ? "the same in every trial"
@@ -104,18 +104,18 @@ void AddRegressions(const std::map<std::string, std::vector<SelectedRow>>& by_de
                     double level, CheckResult& result) {
   for (const auto& [detector, rows] : by_detector) {
     const PairedTests tests = ComparePairs(rows);
-    const Bound errors{.metric = {.kind = Metric::Kind::kRmse},
+    const Limit errors{.metric = {.kind = Metric::Kind::kRmse},
                        .is_upper = true,
-                       .limit = kToleratedRatio,
+                       .value = kToleratedRatio,
                        .to_baseline = true};
-    const Bound hits{.metric = {.kind = Metric::Kind::kRate},
+    const Limit hits{.metric = {.kind = Metric::Kind::kRate},
                      .is_upper = false,
-                     .limit = -kToleratedLoss,
+                     .value = -kToleratedLoss,
                      .to_baseline = true};
-    result.bounds.push_back(
+    result.limits.push_back(
         RegressionResult(fmt::format("errors no larger than in the baseline: {}", detector), tests,
                          tests.p_errors_grew, level, errors, rows));
-    result.bounds.push_back(
+    result.limits.push_back(
         RegressionResult(fmt::format("hits no fewer than in the baseline: {}", detector), tests,
                          tests.p_hits_lost, level, hits, rows));
   }
@@ -126,29 +126,29 @@ std::string CellText(const TrialRecord& row) {
                      LevelsText(row.levels, " = "));
 }
 
-std::vector<Task> TasksOf(const Bound& bound, const RowSelection& selection,
+std::vector<Task> TasksOf(const Limit& limit, const RowSelection& selection,
                           std::span<const SelectedRow> rows) {
   std::map<int, Task> cells;
   for (const SelectedRow& row : rows) {
-    if (!selection.Matches(*row.row, bound.where)) continue;
-    Task& task = cells[bound.in_each_cell ? row.row->cell : 0];
+    if (!selection.Matches(*row.row, limit.where)) continue;
+    Task& task = cells[limit.in_each_cell ? row.row->cell : 0];
     task.rows.push_back(row);
-    if (bound.in_each_cell) task.cell = CellText(*row.row);
+    if (limit.in_each_cell) task.cell = CellText(*row.row);
   }
   std::vector<Task> tasks;
   for (auto& [cell, task] : cells) {
-    task.bound = bound;
+    task.limit = limit;
     tasks.push_back(std::move(task));
   }
   return tasks;
 }
 
-void CheckConditions(const std::string& source, std::span<const Bound> bounds,
+void CheckConditions(const std::string& source, std::span<const Limit> limits,
                      const RowSelection& selection) {
   Faults faults(source);
-  for (const Bound& bound : bounds) {
-    for (const std::string& message : selection.Objections(bound.where)) {
-      faults.AddFault({.line = bound.line, .message = message});
+  for (const Limit& limit : limits) {
+    for (const std::string& message : selection.Objections(limit.where)) {
+      faults.AddFault({.line = limit.line, .message = message});
     }
   }
   faults.ThrowIfAny();
@@ -182,26 +182,26 @@ std::vector<SelectedRow> Pair(const std::string& source, const RowContext& conte
 }  // namespace
 
 int CheckResult::Count(Verdict verdict) const {
-  return static_cast<int>(std::count_if(bounds.begin(), bounds.end(),
+  return static_cast<int>(std::count_if(limits.begin(), limits.end(),
                                         [verdict](const auto& b) { return b.verdict == verdict; }));
 }
 
-CheckResult CheckBounds(const std::string& source, const BoundFile& file, const Study& study,
+CheckResult CheckLimits(const std::string& source, const LimitFile& file, const Study& study,
                         std::span<const TrialRecord> rows, std::span<const TrialRecord> baseline) {
   const std::vector<Cell> cells = Cells(study);
   const RowSelection selection(study, cells);
-  CheckConditions(source, file.bounds, selection);
+  CheckConditions(source, file.limits, selection);
   const std::vector<SelectedRow> selected =
       Pair("--baseline", RowContext(study, cells), rows, baseline);
   Faults faults(source);
   std::vector<Task> tasks;
-  for (const Bound& bound : file.bounds) {
-    const std::vector<Task> own = TasksOf(bound, selection, selected);
+  for (const Limit& limit : file.limits) {
+    const std::vector<Task> own = TasksOf(limit, selection, selected);
     const auto note = [&](const char* message) {
-      faults.AddFault({.line = bound.line, .message = message});
+      faults.AddFault({.line = limit.line, .message = message});
     };
-    if (own.empty()) note("this bound matches no trial of the results");
-    if (bound.to_baseline && baseline.empty()) note("this bound needs --baseline");
+    if (own.empty()) note("this limit matches no trial of the results");
+    if (limit.to_baseline && baseline.empty()) note("this limit needs --baseline");
     tasks.insert(tasks.end(), own.begin(), own.end());
   }
   faults.ThrowIfAny();
@@ -212,8 +212,8 @@ CheckResult CheckBounds(const std::string& source, const BoundFile& file, const 
   }
   const double tests = static_cast<double>(tasks.size() + 2 * by_detector.size());
   CheckResult result{
-      .bounds = {}, .false_alarm = file.false_alarm, .test_level = file.false_alarm / tests};
-  for (const Task& task : tasks) result.bounds.push_back(Judge(task, result.test_level));
+      .limits = {}, .false_alarm = file.false_alarm, .test_level = file.false_alarm / tests};
+  for (const Task& task : tasks) result.limits.push_back(Judge(task, result.test_level));
   AddRegressions(by_detector, result.test_level, result);
   return result;
 }

@@ -1,4 +1,4 @@
-#include "experiments/analysis/metric_limits.h"
+#include "experiments/analysis/confidence_limits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,20 +16,20 @@ ClusteredMean Grown(ClusteredMean mean, double growth) {
   return mean;
 }
 
-MetricLimits QuantileLimits(const MetricLimit& limit, std::vector<Sample> samples) {
+ConfidenceLimits QuantileLimits(const MetricLimit& limit, std::vector<Sample> samples) {
   const double scale = ScaleOf(limit.metric);
   for (Sample& sample : samples) {
     const double value = scale * sample.value;
     // A quantile at the limit satisfies both senses of it.
     sample.value = (limit.is_upper ? value <= limit.value : value < limit.value) ? 1.0 : 0.0;
   }
-  MetricLimits limits = ShareLimits(samples);
+  ConfidenceLimits limits = ShareLimits(samples);
   limits.limit = limit.metric.level;
   limits.is_upper = !limit.is_upper;
   return limits;
 }
 
-MetricLimits BiasLimits(const std::vector<Sample>& samples, double scale) {
+ConfidenceLimits BiasLimits(const std::vector<Sample>& samples, double scale) {
   const ClusteredMean mean = MeanOf(ClusteredSamples(samples).Sums());
   const auto limit = [mean, scale](double probability, double growth) {
     return scale * Grown(mean, growth).Quantile(probability);
@@ -50,13 +50,13 @@ double LargestShare(const std::vector<Sample>& samples) {
   return sum > 0.0 ? largest / sum : 0.0;
 }
 
-MetricLimits RmseLimits(const Metric& metric, const std::vector<Sample>& samples, double scale) {
+ConfidenceLimits RmseLimits(const Metric& metric, const std::vector<Sample>& samples, double scale) {
   const ClusteredSamples clustered(samples);
   if (metric.kind == Kind::kTrimmedRmse) {
     return RootLimits(scale * std::sqrt(Trim(samples).mean), clustered.TrimmedLogarithm());
   }
   const ClusteredMean mean_square = MeanOf(clustered.SquareSums());
-  MetricLimits limits = RootLimits(scale * std::sqrt(mean_square.mean), Logarithm(mean_square));
+  ConfidenceLimits limits = RootLimits(scale * std::sqrt(mean_square.mean), Logarithm(mean_square));
   limits.largest_share = LargestShare(samples);
   return limits;
 }
@@ -75,15 +75,15 @@ const char* ToString(Verdict verdict) {
   FENESTRA_CHECK(false, "verdict out of range");
 }
 
-bool MetricLimits::Holds(double confidence, double growth) const {
+bool ConfidenceLimits::Holds(double confidence, double growth) const {
   return is_upper ? upper(confidence, growth) <= limit : lower(confidence, growth) >= limit;
 }
 
-bool MetricLimits::IsViolated(double level, double growth) const {
+bool ConfidenceLimits::IsViolated(double level, double growth) const {
   return is_upper ? lower(1.0 - level, growth) > limit : upper(1.0 - level, growth) < limit;
 }
 
-MetricLimits ShareLimits(const std::vector<Sample>& shares) {
+ConfidenceLimits ShareLimits(const std::vector<Sample>& shares) {
   const ClusteredSamples clustered(shares);
   const EffectiveCount count = clustered.Effective();
   const auto grown = [count](double growth) {
@@ -98,7 +98,7 @@ MetricLimits ShareLimits(const std::vector<Sample>& shares) {
           .share = count};
 }
 
-MetricLimits RootLimits(double estimate, const ClusteredMean& logarithm) {
+ConfidenceLimits RootLimits(double estimate, const ClusteredMean& logarithm) {
   const auto limit = [estimate, logarithm](double probability, double growth) {
     return estimate * std::exp(0.5 * Grown(logarithm, growth).Quantile(probability));
   };
@@ -108,13 +108,13 @@ MetricLimits RootLimits(double estimate, const ClusteredMean& logarithm) {
           .clusters = logarithm.clusters};
 }
 
-std::optional<MetricLimits> LimitsOf(const MetricTally& tally, const MetricLimit& limit) {
+std::optional<ConfidenceLimits> LimitsOf(const MetricTally& tally, const MetricLimit& limit) {
   const std::vector<Sample> samples = IndependentOf(SamplesOf(tally.rows(), limit.metric));
   if (samples.empty()) return std::nullopt;
   const Kind kind = limit.metric.kind;
   if (kind == Kind::kQuantile) return QuantileLimits(limit, samples);
   const double scale = ScaleOf(limit.metric);
-  MetricLimits limits = limit.metric.IsShare() ? ShareLimits(samples)
+  ConfidenceLimits limits = limit.metric.IsShare() ? ShareLimits(samples)
                         : kind == Kind::kBias  ? BiasLimits(samples, scale)
                                                : RmseLimits(limit.metric, samples, scale);
   limits.limit = limit.value;

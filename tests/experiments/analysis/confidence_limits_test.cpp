@@ -1,4 +1,4 @@
-#include "experiments/analysis/metric_limits.h"
+#include "experiments/analysis/confidence_limits.h"
 
 #include <gtest/gtest.h>
 
@@ -26,12 +26,12 @@ MetricTally Mixed(int hits, int misses) {
   return tally;
 }
 
-MetricLimits Against(const MetricTally& tally, const char* name, double value, bool is_upper) {
+ConfidenceLimits Against(const MetricTally& tally, const char* name, double value, bool is_upper) {
   return LimitsOf(tally, {*FindMetric(name), value, is_upper}).value();
 }
 
 // 0.95^59 = 4.85 %, 0.95^58 = 5.1 %: it takes 59 hits without a miss.
-TEST(MetricLimits, HoldFromTheTextbooksNumberOfTrialsOn) {
+TEST(ConfidenceLimits, HoldFromTheTextbooksNumberOfTrialsOn) {
   EXPECT_FALSE(Against(Mixed(58, 0), "hit_rate", 0.95, false).Holds(0.95));
   EXPECT_TRUE(Against(Mixed(59, 0), "hit_rate", 0.95, false).Holds(0.95));
   EXPECT_TRUE(Against(Mixed(59, 0), "p95_error_mm", 10.0, true).Holds(0.95));
@@ -40,8 +40,8 @@ TEST(MetricLimits, HoldFromTheTextbooksNumberOfTrialsOn) {
   EXPECT_TRUE(Against(Mixed(50, 10), "hit_rate", 0.95, false).IsViolated(0.05));
 }
 
-TEST(MetricLimits, OfAQuantileAreThoseOfTheShareWithin) {
-  const MetricLimits limits = Against(Mixed(90, 10), "p50_error_mm", 20.0, true);
+TEST(ConfidenceLimits, OfAQuantileAreThoseOfTheShareWithin) {
+  const ConfidenceLimits limits = Against(Mixed(90, 10), "p50_error_mm", 20.0, true);
   EXPECT_EQ(limits.limit, 0.5);
   EXPECT_FALSE(limits.is_upper);
   EXPECT_EQ(limits.share->successes, 90.0);
@@ -49,7 +49,7 @@ TEST(MetricLimits, OfAQuantileAreThoseOfTheShareWithin) {
   EXPECT_EQ(limits.clusters, 100);
 }
 
-TEST(MetricLimits, WithoutARowThatCountsThereAreNone) {
+TEST(ConfidenceLimits, WithoutARowThatCountsThereAreNone) {
   EXPECT_FALSE(LimitsOf(Mixed(0, 5), {*FindMetric("rmse_mm"), 1.0, true}).has_value());
 }
 
@@ -77,7 +77,7 @@ double WronglyHeld(const char* name, double truth) {
   return static_cast<double>(held) / kLimitedStudies;
 }
 
-TEST(MetricLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
+TEST(ConfidenceLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
   // The truth by a sample so large that its own error, 0.1 %, is a fiftieth of that of 200 rows.
   const double trimmed =
       HeavyTailed(kLimitedStudies, 400'000).Estimate(*FindMetric("trimmed_rmse_mm"))->value;
@@ -88,7 +88,7 @@ TEST(MetricLimits, OfATrimmedRmseHoldWithHeavyTailsNoMoreOftenThanStated) {
   EXPECT_GT(WronglyHeld("rmse_mm", 10.0 * std::sqrt(3.0 * (0.98 + 8.0))), limit);
 }
 
-TEST(MetricLimits, SayHowMuchOfAnRmseTheLargestRowHolds) {
+TEST(ConfidenceLimits, SayHowMuchOfAnRmseTheLargestRowHolds) {
   MetricTally tally;
   for (int i = 0; i < 99; ++i) tally.Add(HitRow(i, {0, 0, 0.010}));
   EXPECT_NEAR(*Against(tally, "rmse_mm", 20.0, true).largest_share, 1.0 / 99.0, 1e-12);

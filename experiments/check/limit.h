@@ -8,18 +8,18 @@
 
 namespace fenestra {
 
-/// One line of a file of bounds: a metric, a limit for it, the rows that it is taken over.
-struct Bound {
+/// One line of a file of limits: a metric, a limit for it, the rows that it is taken over.
+struct Limit {
   std::string text{};  ///< As written.
   int line = 0;        ///< In its file; 0 if it stands in none.
   Metric metric{};
-  /// Metric ≤ limit, or metric ≥ limit.
+  /// Metric ≤ value, or metric ≥ value.
   bool is_upper = true;
-  double limit = 0.0;
-  /// The limit is not the metric's own but that of its ratio (rmse) or difference (rate) to the
+  double value = 0.0;
+  /// The value is not the metric's own but that of its ratio (rmse) or difference (rate) to the
   /// same metric in the baseline.
   bool to_baseline = false;
-  /// Probability that the bound is not said to hold when it does not.
+  /// Probability that the limit is not said to hold when it does not.
   double confidence = 0.95;
   /// The metric of every cell is held against the limit, not that of all rows together.
   bool in_each_cell = false;

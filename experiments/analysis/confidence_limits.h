@@ -19,7 +19,7 @@ enum class Verdict {
 const char* ToString(Verdict verdict);
 
 /// What rows tell of a number that a limit is set for.
-struct MetricLimits {
+struct ConfidenceLimits {
   double estimate = 0.0;  ///< Of that number.
   /// One-sided confidence limits of that number, from `growth` times the clusters with the same
   /// scatter.
@@ -51,11 +51,11 @@ struct MetricLimit {
 /// to the small levels of many tests, as those of 1000 resamples do not. It takes the scatter of
 /// the squares for known, which holds for errors that are nearly normal and not where a few rows
 /// hold much of the sum (largest_share).
-std::optional<MetricLimits> LimitsOf(const MetricTally& tally, const MetricLimit& limit);
+std::optional<ConfidenceLimits> LimitsOf(const MetricTally& tally, const MetricLimit& limit);
 
 /// The same for the number that `shares` are of, each 0 or 1.
-MetricLimits ShareLimits(const std::vector<Sample>& shares);
+ConfidenceLimits ShareLimits(const std::vector<Sample>& shares);
 /// Limits of estimate · √exp(x), where x has the mean 0 and the standard error of `logarithm`.
-MetricLimits RootLimits(double estimate, const ClusteredMean& logarithm);
+ConfidenceLimits RootLimits(double estimate, const ClusteredMean& logarithm);
 
 }  // namespace fenestra

@@ -1,4 +1,4 @@
-#include "experiments/check/bound_text.h"
+#include "experiments/check/limit_text.h"
 
 #include <fmt/format.h>
 
@@ -51,48 +51,48 @@ std::optional<double> ToNumber(const std::string& word) {
 class Parser {
  public:
   Parser(const std::string& text, double default_confidence) : tokens_(Tokens(text)) {
-    bound_.text = text;
-    bound_.confidence = default_confidence;
+    limit_.text = text;
+    limit_.confidence = default_confidence;
   }
 
-  Bound Parse() {
+  Limit Parse() {
     ReadMetric();
     ReadLimit();
     while (at_ < tokens_.size()) {
       const std::string word = Next("with, in or where");
       if (word == "with") {
         Expect("confidence");
-        bound_.confidence = ReadNumber("the confidence");
-        if (!(bound_.confidence > 0.0 && bound_.confidence < 1.0)) {
-          throw BoundTextError(
-              fmt::format("the confidence must lie between 0 and 1, not be {}", bound_.confidence));
+        limit_.confidence = ReadNumber("the confidence");
+        if (!(limit_.confidence > 0.0 && limit_.confidence < 1.0)) {
+          throw LimitTextError(
+              fmt::format("the confidence must lie between 0 and 1, not be {}", limit_.confidence));
         }
       } else if (word == "in") {
         Expect("each");
         Expect("cell");
-        bound_.in_each_cell = true;
+        limit_.in_each_cell = true;
       } else if (word == "where") {
         ReadConditions();
       } else {
         Unexpected(word, "with, in, where or the end");
       }
     }
-    return bound_;
+    return limit_;
   }
 
   std::vector<Condition> ParseWhere() {
     ReadConditions();
-    return bound_.where;
+    return limit_.where;
   }
 
  private:
   [[noreturn]] static void Unexpected(const std::string& found, const std::string& wanted) {
-    throw BoundTextError(fmt::format("has '{}' where {} was expected", found, wanted));
+    throw LimitTextError(fmt::format("has '{}' where {} was expected", found, wanted));
   }
 
   std::string Next(const std::string& wanted) {
     if (at_ == tokens_.size()) {
-      throw BoundTextError(fmt::format("ends where {} was expected", wanted));
+      throw LimitTextError(fmt::format("ends where {} was expected", wanted));
     }
     return tokens_[at_++];
   }
@@ -118,13 +118,13 @@ class Parser {
   void ReadMetric() {
     const std::string statistic = Next("a metric such as p95(centroid_error_mm)");
     if (const auto named = FindMetric(statistic)) {
-      bound_.metric = *named;
+      limit_.metric = *named;
       return;
     }
-    bound_.metric = MetricOf(statistic);
+    limit_.metric = MetricOf(statistic);
     Expect("(");
     const std::string of = Next("what the metric is of");
-    if (bound_.metric.kind == Metric::Kind::kRate) {
+    if (limit_.metric.kind == Metric::Kind::kRate) {
       ReadOutcome(of);
     } else {
       ReadQuantity(of);
@@ -157,7 +157,7 @@ class Parser {
       }
       Unexpected(word, fmt::format("an outcome ({})", fmt::join(names, ", ")));
     }
-    bound_.metric.outcome = *outcome;
+    limit_.metric.outcome = *outcome;
   }
 
   void ReadQuantity(const std::string& word) {
@@ -165,7 +165,7 @@ class Parser {
     for (const Quantity known : AllQuantities()) {
       names.emplace_back(ToString(known));
       if (word != names.back()) continue;
-      bound_.metric.quantity = known;
+      limit_.metric.quantity = known;
       return;
     }
     Unexpected(word, fmt::format("a quantity ({})", fmt::join(names, ", ")));
@@ -174,38 +174,38 @@ class Parser {
   void ReadLimit() {
     const std::string comparison = Next("<= or >=");
     if (comparison != "<=" && comparison != ">=") Unexpected(comparison, "<= or >=");
-    bound_.is_upper = comparison == "<=";
-    const bool rate = bound_.metric.IsShare();
+    limit_.is_upper = comparison == "<=";
+    const bool rate = limit_.metric.IsShare();
     if (TakeIf("baseline")) {
-      if (!rate) throw BoundTextError("only a rate is held against 'baseline + number'");
-      bound_.to_baseline = true;
+      if (!rate) throw LimitTextError("only a rate is held against 'baseline + number'");
+      limit_.to_baseline = true;
       if (TakeIf("+")) {
-        bound_.limit = ReadNumber("a difference");
+        limit_.value = ReadNumber("a difference");
       } else if (TakeIf("-")) {
-        bound_.limit = -ReadNumber("a difference");
+        limit_.value = -ReadNumber("a difference");
       }
       CheckLimit(-1.0, 1.0, "a difference of rates");
       return;
     }
-    bound_.limit = ReadNumber("a limit");
+    limit_.value = ReadNumber("a limit");
     if (TakeIf("times")) {
       Expect("baseline");
-      if (bound_.metric.kind != Metric::Kind::kRmse) {
-        throw BoundTextError("only an rmse is held against 'number times baseline'");
+      if (limit_.metric.kind != Metric::Kind::kRmse) {
+        throw LimitTextError("only an rmse is held against 'number times baseline'");
       }
-      bound_.to_baseline = true;
+      limit_.to_baseline = true;
       CheckLimit(1e-6, 1e6, "a ratio");
     } else if (rate) {
       CheckLimit(0.0, 1.0, "a rate");
-    } else if (bound_.metric.kind != Metric::Kind::kBias) {
+    } else if (limit_.metric.kind != Metric::Kind::kBias) {
       CheckLimit(0.0, 1e9, "such a limit");
     }
   }
 
   void CheckLimit(double min, double max, const char* what) {
-    if (bound_.limit >= min && bound_.limit <= max) return;
-    throw BoundTextError(
-        fmt::format("{} must lie between {} and {}, not be {}", what, min, max, bound_.limit));
+    if (limit_.value >= min && limit_.value <= max) return;
+    throw LimitTextError(
+        fmt::format("{} must lie between {} and {}, not be {}", what, min, max, limit_.value));
   }
 
   void ReadConditions() {
@@ -232,9 +232,9 @@ class Parser {
                          condition.comparison != Comparison::kNotEqual &&
                          condition.comparison != Comparison::kIn;
     if (ordered && !std::holds_alternative<double>(condition.values.front())) {
-      throw BoundTextError(fmt::format("{} has no order: use =, != or in", condition.name));
+      throw LimitTextError(fmt::format("{} has no order: use =, != or in", condition.name));
     }
-    bound_.where.push_back(std::move(condition));
+    limit_.where.push_back(std::move(condition));
   }
 
   static Comparison ReadComparison(const std::string& word) {
@@ -254,7 +254,7 @@ class Parser {
     if (info == nullptr) {
       std::vector<std::string> names = Factors().Names();
       names.insert(names.end(), {"detector", "part", "sensor"});
-      throw BoundTextError(fmt::format("'{}' is no factor, detector, part or sensor.{}", name,
+      throw LimitTextError(fmt::format("'{}' is no factor, detector, part or sensor.{}", name,
                                        DidYouMean(name, names)));
     }
     switch (info->type) {
@@ -274,12 +274,12 @@ class Parser {
 
   std::vector<std::string> tokens_;
   size_t at_ = 0;
-  Bound bound_;
+  Limit limit_;
 };
 
 }  // namespace
 
-Bound ParseBound(const std::string& text, double default_confidence) {
+Limit ParseLimit(const std::string& text, double default_confidence) {
   return Parser(text, default_confidence).Parse();
 }
 
