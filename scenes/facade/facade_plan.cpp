@@ -39,8 +39,8 @@ Box RoomOf(const FacadeOptions& o, const Vector3d& p_WO) {
 WindowPlan PlanWindow(const FacadeOptions& o, int column, int row, const RandomStream& random) {
   const WindowOptions& w = o.window;
   // One index per place, wherever the grid ends.
-  const auto index =
-      (static_cast<uint64_t>(static_cast<uint32_t>(column)) << 32) | static_cast<uint32_t>(row);
+  constexpr uint64_t kRows = uint64_t{1} << 32;
+  const uint64_t index = kRows * static_cast<uint32_t>(column) + static_cast<uint32_t>(row);
   WindowPlan plan{.is_target = column == 0 && row == 0,
                   .column = column,
                   .row = row,

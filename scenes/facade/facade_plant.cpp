@@ -95,8 +95,10 @@ class FrontMap {
  private:
   Vector2d CentreOf(size_t i) const {
     const auto width = static_cast<size_t>(width_);
-    return {low_.x() + step_.x() * (static_cast<double>(i % width) + 0.5),
-            low_.y() + step_.y() * (static_cast<double>(i / width) + 0.5)};
+    const size_t column = i % width;
+    const size_t row = i / width;
+    return {low_.x() + step_.x() * (static_cast<double>(column) + 0.5),
+            low_.y() + step_.y() * (static_cast<double>(row) + 0.5)};
   }
 
   Vector2d low_;

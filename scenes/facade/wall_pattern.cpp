@@ -75,8 +75,8 @@ WallPattern Plaster(const RandomStream& random) {
 
 // The mortar is lighter than the bricks; shades and grain stand in ratio to that difference.
 WallPattern Brick(const RandomStream& random) {
-  constexpr int kCourses = 24;
-  constexpr int kBricksOfCourse = 8;
+  constexpr size_t kCourses = 24;
+  constexpr size_t kBricksOfCourse = 8;
   constexpr double kCourse_m = kPatternSide_m / kCourses;
   constexpr double kModule_m = kPatternSide_m / kBricksOfCourse;
   constexpr double kBedJoint_m = kCourse_m - 0.071;
@@ -90,15 +90,15 @@ WallPattern Brick(const RandomStream& random) {
   WallPattern brick{cv::Mat1f(kSide_px, kSide_px), cv::Mat1f(kSide_px, kSide_px)};
   for (int v = 0; v < kSide_px; ++v) {
     const double y_m = (v + 0.5) * kTexel_m;
-    const int course = std::min(static_cast<int>(y_m / kCourse_m), kCourses - 1);
+    const size_t course = std::min(static_cast<size_t>(y_m / kCourse_m), kCourses - 1);
     const double shift_m = course % 2 == 0 ? 0.0 : 0.5 * kModule_m;
     for (int u = 0; u < kSide_px; ++u) {
       const double x_m = (u + 0.5) * kTexel_m + shift_m;
-      const int column = static_cast<int>(x_m / kModule_m) % kBricksOfCourse;
+      const size_t column = static_cast<size_t>(x_m / kModule_m) % kBricksOfCourse;
       const double off = wander(v, u);
       const float joint = std::max(Covered(FromGridLine(y_m, kCourse_m) + off, 0.5 * kBedJoint_m),
                                    Covered(FromGridLine(x_m, kModule_m) + off, 0.5 * kHeadJoint_m));
-      const float shade = kShade * shades[static_cast<size_t>(course * kBricksOfCourse + column)];
+      const float shade = kShade * shades[course * kBricksOfCourse + column];
       brick.lightness(v, u) = joint + (1.0f - joint) * shade;
       brick.grey(v, u) = joint;
     }

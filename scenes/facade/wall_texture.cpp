@@ -34,6 +34,7 @@ class SrgbEncoder {
 
   uint8_t Encode(float linear) const {
     const float scaled = std::clamp(linear, 0.0f, 1.0f) * static_cast<float>(code_.size() - 1);
+    // NOLINTNEXTLINE(bugprone-incorrect-roundings): of what is not negative, and in less time.
     return code_[static_cast<size_t>(scaled + 0.5f)];
   }
   double Decode(uint8_t code) const { return linear_[code]; }

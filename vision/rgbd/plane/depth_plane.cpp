@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr int kTriples = 80;
+constexpr uint64_t kTriples = 80;
 constexpr size_t kMostTried = 400;
 constexpr double kOutlier = 3.5;
 constexpr int kRefitsFound = 4;     // Refits that start from three points.
@@ -36,11 +36,11 @@ std::optional<Vector3d> MostPopular(const std::vector<DepthPoint>& points, doubl
   const double limit = std::pow(kOutlier * sigma, 2);
   std::optional<Vector3d> best;
   double least = limit * static_cast<double>(tried);
-  for (int i = 0; i < kTriples; ++i) {
+  for (uint64_t i = 0; i < kTriples; ++i) {
     Matrix3d rays;
     Vector3d inverse_depths;
     for (int k = 0; k < 3; ++k) {
-      const double share = triples.Uniform(static_cast<uint64_t>(3 * i + k));
+      const double share = triples.Uniform(3 * i + static_cast<uint64_t>(k));
       const DepthPoint& point = at(static_cast<size_t>(share * static_cast<double>(tried)));
       rays.row(k) = point.ray_D;
       inverse_depths[k] = point.inverse_depth;
@@ -161,16 +161,16 @@ class PlaneFitter {
   // Index of a point's tile. Tiles are counted from the image's middle outwards, so that a mirrored
   // image has mirrored tiles.
   size_t PlaceOf(const DepthPoint& point) const {
-    const auto place = [this](int pixel, int count) {
-      return static_cast<int>(std::floor((2.0 * pixel - count + 1.0) / (2.0 * side_px_)));
+    const auto place = [this](int pixel, int count, int half) {
+      return static_cast<size_t>(half + std::floor((2.0 * pixel - count + 1.0) / (2.0 * side_px_)));
     };
-    const int column = place(point.pixel.x, noise_.image.width) + half_.width;
-    const int row = place(point.pixel.y, noise_.image.height) + half_.height;
-    return static_cast<size_t>(row * 2 * half_.width + column);
+    const size_t column = place(point.pixel.x, noise_.image.width, half_.width);
+    const size_t row = place(point.pixel.y, noise_.image.height, half_.height);
+    return row * 2 * static_cast<size_t>(half_.width) + column;
   }
 
   std::vector<Tile> Tiles() const {
-    std::vector<Tile> tiles(static_cast<size_t>(4 * half_.area()));
+    std::vector<Tile> tiles(4 * static_cast<size_t>(half_.area()));
     for (size_t i = 0; i < points_.size(); ++i) {
       if (!plane_.is_inlier[i]) continue;
       Tile& tile = tiles[PlaceOf(points_[i])];

@@ -123,7 +123,7 @@ Detection PlaneRgbdDetector::Detect(const Observation& observation, StageLog& lo
   log.Begin("propose");
   const auto candidates =
       FindDarkQuadrilaterals(straight, segments, darkness_, options_.search.min_darkness,
-                             static_cast<size_t>(2 * options_.search.most_candidates));
+                             2 * static_cast<size_t>(options_.search.most_candidates));
   log.Picture("segments", [&] { return DrawSegments(straight, segments, candidates); },
               {PictureView{pinhole_, calibration_.X_KD}});
   log.Begin("plane");

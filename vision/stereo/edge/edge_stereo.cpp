@@ -82,7 +82,7 @@ Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& l
   log.Begin("propose");
   const auto candidates =
       FindDarkQuadrilaterals(pair.left, left_segments, darkness_, options_.search.min_darkness,
-                             static_cast<size_t>(4 * options_.search.most_candidates));
+                             4 * static_cast<size_t>(options_.search.most_candidates));
   log.Picture("segments", [&] { return DrawSegments(pair.left, left_segments, candidates); },
               {picture_views[0]});
   if (candidates.empty()) {

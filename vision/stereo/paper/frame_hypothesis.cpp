@@ -123,7 +123,8 @@ std::optional<Miss> Judge(FrameHypothesis& hypothesis, const cv::Mat1f& disparit
                             "needed",
                             100.0 * support, 100.0 * criteria.min_side_support)};
   }
-  const auto frame = Inset(q, criteria.window_px / 2);
+  const int reach_px = criteria.window_px / 2;
+  const auto frame = Inset(q, reach_px);
   if (!frame) return Miss{"implausible_shape", "nothing is left without the SAD window's reach"};
   const double filled = FilledOpeningRows(*frame, criteria.window_px, probe);
   if (filled > criteria.max_opening_rows) {

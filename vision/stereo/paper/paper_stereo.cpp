@@ -227,7 +227,8 @@ std::optional<Quadrilateral> PaperStereoDetector::FindCorners(
   if (!corners_px) return std::nullopt;
   for (Eigen::Vector2d& corner : *corners_px) corner.array() += 0.5;  // See closed_contour.h.
   if (!options_.undo_fattening) return corners_px;
-  return Inset(*corners_px, options_.sad_window_px / 2);
+  const int reach_px = options_.sad_window_px / 2;
+  return Inset(*corners_px, reach_px);
 }
 
 }  // namespace fenestra
