@@ -8,6 +8,7 @@
 #include <chrono>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "core/io/input_error.h"
 #include "core/system/program.h"
@@ -113,8 +114,8 @@ void RunBatch(const StudyRun& run, std::span<const Cell> cells, std::span<const 
 }
 
 // Runs what is missing, and what turns out to be missing then. Returns whether all is there.
-bool RunMissing(const StudyRun& run, std::span<const Cell> cells, ResultStore& store) {
-  std::vector<TrialKey> missing = Missing(run, cells, store);
+bool RunMissing(const StudyRun& run, std::span<const Cell> cells, std::vector<TrialKey> missing,
+                ResultStore& store) {
   if (missing.empty()) return true;
   const int64_t entry = store.AddRun({.shard = run.shard.ToString(),
                                       .started_utc = UtcNow(),
@@ -148,23 +149,27 @@ StudyResult RunStudy(const StudyRun& run) {
 
   RunStart start{.trials = static_cast<int64_t>(trials.size()), .stored = 0, .tallies = {}};
   std::optional<ResultStore> store = OpenEarlier(run, file);
-  bool complete = false;
+  std::vector<TrialKey> missing;
   if (store) {
-    complete = Missing(run, cells, *store).empty();
+    missing = Missing(run, cells, *store);
     start.stored = static_cast<int64_t>(store->FinishedTrials().size());
     start.tallies = store->Tallies();
   }
-  StudyResult result{.trials = complete ? start.stored : start.trials,
+  const bool was_complete = store && missing.empty();
+  StudyResult result{.trials = was_complete ? start.stored : start.trials,
                      .stored_before = start.stored,
                      .stored = start.stored,
                      .summaries = {}};
-  if (complete && HasResultFiles(run.out)) {
+  if (was_complete && HasResultFiles(run.out)) {
     result.summaries = Summarise(*store, RowContext(run.study, cells));
     return result;
   }
   run.on_start(start);
-  if (!store) store = StartAfresh(run, file);
-  complete = RunMissing(run, cells, *store);
+  if (!store) {
+    store = StartAfresh(run, file);
+    missing = Missing(run, cells, *store);
+  }
+  const bool complete = RunMissing(run, cells, std::move(missing), *store);
   result.stored = static_cast<int64_t>(store->FinishedTrials().size());
   if (!complete) return result;
   result.trials = result.stored;  // A study that stops by itself knows its trials only now.
