@@ -3,11 +3,25 @@
 #include <algorithm>
 
 #include "experiments/sampling/causes.h"
+#include "experiments/statistics/clustered_intervals.h"
+#include "experiments/statistics/intervals.h"
 
 namespace fenestra {
 namespace {
 
 constexpr const char* kCoordinates[] = {"right", "down", "depth"};
+
+// That of the root mean square about the mean, which is √((n - 1) / n) of the standard deviation.
+std::optional<Interval> DeviationInterval(std::span<const double> values,
+                                          const RandomStream& resampling) {
+  const double mean = Mean(values);
+  std::vector<double> deviations(values.begin(), values.end());
+  for (double& value : deviations) value -= mean;
+  auto interval = RootMeanSquareInterval(deviations, resampling);
+  if (!interval) return std::nullopt;
+  const double scale = StandardDeviation(values) / RootMeanSquare(deviations);
+  return Interval{scale * interval->lower, scale * interval->upper};
+}
 
 // The rows of the design that are hits throughout, as their trials.
 std::vector<int> RowsOfHits(const std::vector<std::optional<Eigen::Vector3d>>& errors,
@@ -75,7 +89,10 @@ ErrorBudget ErrorBudgets::BudgetOf(const Errors& collected) const {
       const std::span<const double> independent(errors.data(),
                                                 static_cast<size_t>(2 * errors.rows()));
       coordinate.mean_m = Mean(independent);
+      coordinate.mean_interval_m = MeanInterval(independent);
       coordinate.standard_deviation_m = StandardDeviation(independent);
+      coordinate.standard_deviation_interval_m =
+          DeviationInterval(independent, RandomStream(seed_).Child("standard_deviation"));
       coordinate.indices = SobolIndices(errors, resampling);
     }
     budget.coordinates.push_back(std::move(coordinate));

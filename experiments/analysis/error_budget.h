@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "experiments/statistics/moments.h"
 #include "experiments/statistics/sobol_indices.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/trial_record.h"
@@ -19,6 +20,9 @@ struct CoordinateBudget {
   std::string coordinate;  ///< "right", "down", "depth": x, y, z of frame C.
   double mean_m = 0.0;
   double standard_deviation_m = 0.0;
+  /// With 95 % confidence: Student's, and the bootstrap's of RootMeanSquareInterval about the mean.
+  std::optional<Interval> mean_interval_m;
+  std::optional<Interval> standard_deviation_interval_m;
   /// One for each cause; nullopt with too few rows, or where the error does not vary.
   std::optional<std::vector<SobolIndex>> indices;
 };

@@ -15,6 +15,14 @@ std::string Share(double value, const Interval& interval) {
                      100.0 * interval.upper);
 }
 
+// A length with its interval, in mm.
+std::string Length(double value_m, const std::optional<Interval>& interval_m) {
+  const std::string value = Significant(1e3 * value_m);
+  if (!interval_m) return value;
+  return fmt::format("{} ({} to {})", value, Significant(1e3 * interval_m->lower),
+                     Significant(1e3 * interval_m->upper));
+}
+
 std::string Table(const ErrorBudget& budget) {
   TextTable table;
   table.AddColumn("cause", TextTable::Align::kLeft);
@@ -35,11 +43,15 @@ std::string Table(const ErrorBudget& budget) {
     }
     table.AddRow(std::move(cells));
   }
-  std::vector<std::string> sizes{"standard deviation [mm]"};
-  for (const CoordinateBudget& coordinate : budget.coordinates) {
-    sizes.insert(sizes.end(), {"", Significant(1e3 * coordinate.standard_deviation_m)});
+  std::vector<std::string> means{"mean [mm]"};
+  std::vector<std::string> deviations{"standard deviation [mm]"};
+  for (const CoordinateBudget& c : budget.coordinates) {
+    means.insert(means.end(), {"", Length(c.mean_m, c.mean_interval_m)});
+    deviations.insert(deviations.end(),
+                      {"", Length(c.standard_deviation_m, c.standard_deviation_interval_m)});
   }
-  table.AddRow(std::move(sizes));
+  table.AddRow(std::move(means));
+  table.AddRow(std::move(deviations));
   return table.ToMarkdown();
 }
 
@@ -47,7 +59,7 @@ constexpr const char* kHowToReadBudget = R"md(
 *alone* is the first-order Sobol index: the share of the error's variance that the cause explains by
 itself. *total* is the total index: the share that would be gone without the cause's spread; what it
 exceeds *alone* by comes from the cause acting together with others. In parentheses 95 % intervals
-(bootstrap over rows, Martinez' estimator). The errors are signed, in the frame of the scored camera,
+(bootstrap over rows, Martinez' estimator; of the mean Student's). The errors are signed, in the frame of the scored camera,
 over rows of the design whose trials are all hits: the indices say nothing about misses.
 )md";
 
@@ -72,9 +84,28 @@ std::string ErrorBudgetMarkdown(std::span<const ErrorBudget> budgets) {
 
 std::string ErrorBudgetCsv(std::span<const ErrorBudget> budgets) {
   CsvWriter csv;
-  csv.AddAll({"part", "sensor", "cell", "detector", "trials", "hits", "rows", "used_rows",
-              "coordinate", "mean_mm", "standard_deviation_mm", "cause", "first", "first_lower95",
-              "first_upper95", "total", "total_lower95", "total_upper95"});
+  csv.AddAll({"part",
+              "sensor",
+              "cell",
+              "detector",
+              "trials",
+              "hits",
+              "rows",
+              "used_rows",
+              "coordinate",
+              "mean_mm",
+              "standard_deviation_mm",
+              "cause",
+              "first",
+              "first_lower95",
+              "first_upper95",
+              "total",
+              "total_lower95",
+              "total_upper95",
+              "mean_lower95_mm",
+              "mean_upper95_mm",
+              "standard_deviation_lower95_mm",
+              "standard_deviation_upper95_mm"});
   csv.EndLine();
   for (const ErrorBudget& budget : budgets) {
     for (const CoordinateBudget& coordinate : budget.coordinates) {
@@ -89,6 +120,14 @@ std::string ErrorBudgetCsv(std::span<const ErrorBudget> budgets) {
           csv.Add(index.total).Add(index.total_interval.lower).Add(index.total_interval.upper);
         } else {
           csv.AddAll(std::vector<std::string>(6));
+        }
+        for (const auto& interval :
+             {coordinate.mean_interval_m, coordinate.standard_deviation_interval_m}) {
+          if (interval) {
+            csv.Add(1e3 * interval->lower).Add(1e3 * interval->upper);
+          } else {
+            csv.AddAll(std::vector<std::string>(2));
+          }
         }
         csv.EndLine();
       }

@@ -79,6 +79,14 @@ TEST(ErrorBudget, SharesOutTheVarianceAmongItsCauses) {
   }
   EXPECT_NEAR(depth.mean_m, 5e-3, 5.0 * 1.414e-3 / std::sqrt(2400.0));
   EXPECT_NEAR(depth.standard_deviation_m, 1.414e-3, 0.1e-3);
+  // Half widths to first order: 1.96 σ/√n, and 1.96 σ √((κ - 1)/4n) with the kurtosis κ = 2.7 of
+  // the sum of a normal and a uniform variable of equal variance.
+  const auto half_mm = [](const std::optional<Interval>& interval_m) {
+    return 0.5e3 * (interval_m->upper - interval_m->lower);
+  };
+  EXPECT_NEAR(half_mm(depth.mean_interval_m), 1.96 * 1.414 / std::sqrt(2400.0), 0.003);
+  EXPECT_NEAR(half_mm(depth.standard_deviation_interval_m),
+              1.96 * 1.414 * std::sqrt(1.7 / (4.0 * 2400.0)), 0.004);
   // A product of two centred causes: nothing alone, all of it in total.
   const CoordinateBudget& right = budget.coordinates[0];
   for (const size_t both : {1u, 3u}) {
