@@ -18,8 +18,8 @@ StereoCalibration Perturbed(const StereoCalibration& truth, const CalibrationCho
   return {.left = truth.left, .right = truth.right, .X_RL = error * truth.X_RL};
 }
 
-StatedCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choice,
-                             const RandomStream& stream, const CalibrationCache& cache) {
+CalibrationWithCovariance WithBoards(const StereoRig& rig, const CalibrationChoice& choice,
+                                     const RandomStream& stream, const CalibrationCache& cache) {
   BoardSessionOptions session;
   session.board.kind = choice.board;
   session.views = choice.boards;
@@ -28,7 +28,7 @@ StatedCalibration WithBoards(const StereoRig& rig, const CalibrationChoice& choi
   const StereoRig noisy = rig.WithNoise();
   const auto calibrate = [&] {
     const StereoCalibrationResult result = CalibrateWithBoards(noisy, session, stream);
-    return StatedCalibration{result.calibration, result.covariance};
+    return CalibrationWithCovariance{result.calibration, result.covariance};
   };
   return cache.Get(ContentOf(noisy, choice, stream), calibrate);
 }
@@ -83,7 +83,8 @@ CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
     return CalibratedRig{flown, nominal, CalibrationCovariance(flown, choice, boards)};
   };
   const auto with_boards = [&](const StereoRig& flown) {
-    const StatedCalibration measured = WithBoards(rig, choice, calibration.Child("boards"), cache);
+    const CalibrationWithCovariance measured =
+        WithBoards(rig, choice, calibration.Child("boards"), cache);
     return with_covariance(flown, measured.calibration, measured.covariance);
   };
   switch (choice.source) {

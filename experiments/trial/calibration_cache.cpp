@@ -34,7 +34,7 @@ std::string Sealed(const std::string& content) {
 
 constexpr char kCovariance[] = "# covariance ";
 
-std::string ToText(const StatedCalibration& stated) {
+std::string ToText(const CalibrationWithCovariance& stated) {
   const double* numbers = stated.covariance.data();
   return fmt::format("{}{}{}\n", ToOpenCvYaml(stated.calibration), kCovariance,
                      fmt::join(numbers, numbers + stated.covariance.size(), " "));
@@ -51,7 +51,7 @@ PairMatrix CovarianceIn(const std::string& text) {
   return covariance;
 }
 
-std::optional<StatedCalibration> Read(const std::filesystem::path& file) {
+std::optional<CalibrationWithCovariance> Read(const std::filesystem::path& file) {
   // A folder can be opened as a file; reading it is what fails.
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<StatedCalibration> Read(const std::filesystem::path& file) {
   const size_t end = text.find(kSum);
   if (end == std::string::npos || text != Sealed(text.substr(0, end))) return std::nullopt;
   try {
-    return StatedCalibration{ReadStereoCalibration(file), CovarianceIn(text)};
+    return CalibrationWithCovariance{ReadStereoCalibration(file), CovarianceIn(text)};
   } catch (const InputError&) {
     return std::nullopt;
   }
@@ -80,13 +80,13 @@ CalibrationCache CalibrationCache::OfUser() {
   return {};
 }
 
-StatedCalibration CalibrationCache::Get(const std::string& content,
-                                        const std::function<StatedCalibration()>& compute) const {
+CalibrationWithCovariance CalibrationCache::Get(
+    const std::string& content, const std::function<CalibrationWithCovariance()>& compute) const {
   if (!folder_) return compute();
   const std::string key = Sha256("build " + BuildId() + "\n" + content);
   const std::filesystem::path file = *folder_ / ("calibration-" + key + ".yaml");
   if (const auto known = Read(file)) return *known;
-  const StatedCalibration computed = compute();
+  const CalibrationWithCovariance computed = compute();
   try {
     WriteFileAtomically(file, Sealed(ToText(computed)));
   } catch (const InputError&) {

@@ -11,11 +11,11 @@
 namespace fenestra {
 
 /// A calibration and the covariance that it states of itself; see StereoCalibrationResult.
-struct StatedCalibration {
+struct CalibrationWithCovariance {
   StereoCalibration calibration;
   PairMatrix covariance;
 
-  bool operator==(const StatedCalibration&) const = default;
+  bool operator==(const CalibrationWithCovariance&) const = default;
 };
 
 /// Calibrations that were computed before, kept in files: the cells of a study share their rigs,
@@ -35,8 +35,8 @@ class CalibrationCache {
 
   /// The calibration that belongs to `content`; `compute` makes it where it is not known. A folder
   /// that cannot be written costs time, not the result.
-  StatedCalibration Get(const std::string& content,
-                        const std::function<StatedCalibration()>& compute) const;
+  CalibrationWithCovariance Get(const std::string& content,
+                                const std::function<CalibrationWithCovariance()>& compute) const;
 
  private:
   std::optional<std::filesystem::path> folder_;

@@ -107,7 +107,7 @@ class PreparedBoards {
 
   const CalibrationCache& For(const CalibrationChoice& choice, const RandomStream& stream) {
     cache_.Get(ContentOf(rig_, choice, stream.Child("boards")), [] {
-      return StatedCalibration{Known(), PairMatrix::Zero()};
+      return CalibrationWithCovariance{Known(), PairMatrix::Zero()};
     });
     return cache_;
   }

@@ -18,7 +18,7 @@ using testing::ReadFile;
 using testing::TemporaryFolder;
 
 // A calibration whose numbers have no short decimal form.
-StatedCalibration Odd() {
+CalibrationWithCovariance Odd() {
   StereoCalibration calibration = DesignOf(StereoRigOptions());
   calibration.X_RL = Pose(RotationFromVector({0.01 / 3.0, -0.02 / 7.0, 0.0}), {-1.05 / 3.0, 0, 0});
   PairMatrix covariance = PairMatrix::Constant(1e-9 / 3.0);
@@ -28,7 +28,7 @@ StatedCalibration Odd() {
 
 // Asks for the calibration of `content`, and whether it had to be computed.
 struct CacheAnswer {
-  StatedCalibration calibration;
+  CalibrationWithCovariance calibration;
   bool computed = false;
 };
 
