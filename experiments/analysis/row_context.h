@@ -20,6 +20,7 @@ struct ClusterKey {
   int replicate = 0;  ///< The trial, or the row of a sensitivity design.
   int draw = 0;       ///< 1: the second draw of all causes of that row.
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the 0 of the operator that the compiler makes.
   auto operator<=>(const ClusterKey&) const = default;
 };
 

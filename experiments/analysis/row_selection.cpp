@@ -100,8 +100,8 @@ std::optional<ParameterValue> RowSelection::ValueOf(const TrialRecord& row,
   if (name == "detector") return row.detector;
   if (name == "part") return row.part;
   if (name == "sensor") return std::string(ToString(row.sensor));
-  if (const auto drawn = Find(row.drawn, name)) return drawn;
-  if (const auto level = Find(row.levels, name)) return level;
+  if (auto drawn = Find(row.drawn, name)) return drawn;
+  if (auto level = Find(row.levels, name)) return level;
   if (!Concerns(GroupOf(name), row.sensor)) return std::nullopt;
   return Factors().Get(cells_[static_cast<size_t>(row.cell)].settings, name);
 }

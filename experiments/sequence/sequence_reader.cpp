@@ -94,7 +94,7 @@ class SequenceReader {
   fs::path ReadPath(const YAML::Node& node, const std::string& what) {
     const auto text = reader_.Text(node, what);
     if (!text) return {};
-    const fs::path path = folder_ / *text;
+    fs::path path = folder_ / *text;
     std::error_code error;
     if (!fs::is_regular_file(path, error)) {
       reader_.AddFault(node, fmt::format("there is no file {}", path.string()));

@@ -29,7 +29,7 @@ std::optional<DesignMethod> ReadMethod(YamlReader& reader, const YAML::Node& nod
 
 std::optional<std::string> ReadFactorName(YamlReader& reader, const YAML::Node& node,
                                           const std::vector<std::string>& also) {
-  const auto name = reader.Text(node, "a factor's name");
+  auto name = reader.Text(node, "a factor's name");
   if (!name) return std::nullopt;
   std::vector<std::string> names = also;
   const std::vector<std::string> factors = Factors().Names();

@@ -11,6 +11,7 @@
 namespace fenestra {
 
 /// A design as a study file gives it, and where.
+// NOLINTNEXTLINE(bugprone-exception-escape): nodes are moved by copying shared pointers.
 struct GivenDesign {
   SamplingDesign design;
   YAML::Node node;

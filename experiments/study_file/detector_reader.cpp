@@ -243,7 +243,7 @@ std::optional<SensorKind> ReadSensor(YamlReader& reader, const YAML::Node& node)
 
 std::optional<std::string> ReadName(YamlReader& reader, const YAML::Node& node,
                                     const std::string& what) {
-  const auto name = reader.Text(node, what);
+  auto name = reader.Text(node, what);
   if (!name) return std::nullopt;
   const bool good =
       !name->empty() && name->size() <= 64 &&

@@ -20,7 +20,7 @@ std::vector<std::string> BuiltInStudies() {
 }
 
 std::filesystem::path FindStudy(const std::string& name_or_path) {
-  const std::filesystem::path path(name_or_path);
+  std::filesystem::path path(name_or_path);
   if (path.has_parent_path() || path.has_extension()) return path;
   const std::vector<std::string> names = BuiltInStudies();
   if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {

@@ -6,12 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/system/check.h"
+#include "experiments/study/metric.h"
 #include "experiments/study_file/design_reader.h"
 #include "experiments/study_file/detector_reader.h"
 #include "experiments/study_file/factor_reader.h"
+#include "experiments/study_file/part_reader.h"
 #include "experiments/study_file/rule_reader.h"
 #include "experiments/study_file/study_blocks.h"
-#include "experiments/study_file/part_reader.h"
 #include "experiments/study_file/study_reader.h"
 
 namespace fenestra {

@@ -19,6 +19,7 @@ struct TrialKey {
   int cell = 0;   ///< Index into Cells(study).
   int trial = 0;  ///< Index in the cell, from 0.
 
+  // NOLINTNEXTLINE(modernize-use-nullptr): the 0 of the operator that the compiler makes.
   auto operator<=>(const TrialKey&) const = default;
 };
 

@@ -32,9 +32,11 @@ vec3 CosineDirection(float a, float b) {
 DirectionSquare MakeSquare(float a, float b, float step) {
   DirectionSquare square;
   for (int i = 0; i < kLanes; ++i) {
+    const int row = i / kDirectionSquare;
+    const int column = i % kDirectionSquare;
     square[static_cast<size_t>(i)] =
-        CosineDirection(a + (static_cast<float>(i / kDirectionSquare) + 0.5f) * step,
-                        b + (static_cast<float>(i % kDirectionSquare) + 0.5f) * step);
+        CosineDirection(a + (static_cast<float>(row) + 0.5f) * step,
+                        b + (static_cast<float>(column) + 0.5f) * step);
   }
   return square;
 }

@@ -58,7 +58,7 @@ Illumination::Solution Illumination::Find(const Key& key) const {
     }
   }
   // Outside the lock: two threads may solve the same at once, and find the same.
-  const Solution solution = std::make_shared<DiffuseLight::PointIrradiances>(Solve(key));
+  Solution solution = std::make_shared<DiffuseLight::PointIrradiances>(Solve(key));
   const std::scoped_lock lock(mutex_);
   if (known_.size() >= kMostKnown) known_.erase(known_.begin());
   known_.emplace_back(key, solution);

@@ -254,8 +254,9 @@ class EdgeSearch {
         areas[along_s_ ? 2 * across + along : 2 * along + across] += covered;
       }
     }
+    constexpr size_t kLinesEachWay = kLines / 2;
     for (float& area : areas) {
-      area /= static_cast<float>(kLines / 2);
+      area /= static_cast<float>(kLinesEachWay);
       if (first_ != things_[0].key) area = 1.0f - area;
     }
     return areas;

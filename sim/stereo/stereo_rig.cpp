@@ -202,7 +202,7 @@ QuarterImages StereoRig::Light(const Camera& camera, const Pose& X_BC, const Ray
   for (int i = 0; i < pictures; ++i) {
     const double middle_s = t_s + ((i + 0.5) / pictures - 0.5) * exposure_s;
     const Pose X_WC = PoseAt(X_WB, options_.motion, middle_s) * X_BC;
-    const QuarterImages picture = caster.RenderQuarters(
+    QuarterImages picture = caster.RenderQuarters(
         camera.rays, X_WC, lighting, render, sampling.Child("picture", static_cast<uint64_t>(i)));
     if (pictures == 1) return picture;
     for (size_t q = 0; q < sum.size(); ++q) {
