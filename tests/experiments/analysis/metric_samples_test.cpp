@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -94,6 +95,20 @@ TEST(MetricSamples, TrimmingLeavesOutTheLargestTwentiethRoundedDown) {
   const TrimmedSquares whole = Trim(Squares({1.0, 2.0, 3.0}));
   EXPECT_EQ(whole.left, 3u);
   EXPECT_DOUBLE_EQ(whole.mean, 14.0 / 3.0);
+}
+
+// Tukey and McLaughlin 1963: s_w / ((1 - γ) √n), with s_w² the variance of the values of which the
+// largest share γ is replaced by the largest that is left.
+TEST(MetricSamples, ATrimmedMeansStandardErrorIsThatOfTheWinsorisedValues) {
+  std::vector<double> values;
+  for (int i = 1; i <= 40; ++i) values.push_back(std::sqrt(i));
+  std::vector<double> winsorised;
+  for (int i = 1; i <= 40; ++i) winsorised.push_back(std::min(i, 38));
+  const double standard_error = StandardDeviation(winsorised) / (0.95 * std::sqrt(40.0));
+  const double mean = 0.5 * (1 + 38);
+  const std::vector<Sample> samples = Squares(values);
+  EXPECT_NEAR(ClusteredSamples(samples).TrimmedLogarithm().standard_error, standard_error / mean,
+              1e-12);
 }
 
 TEST(MetricSamples, BoundsAreAbsentUnlessAllHitsHaveOne) {
