@@ -7,6 +7,9 @@
 namespace fenestra {
 namespace {
 
+// What limits were called before; files that have it are read.
+constexpr const char* kFormerKey = "bounds";
+
 double ReadProbability(YamlReader& reader, const char* key, double default_value) {
   const YAML::Node node = reader.root()[key];
   if (!node.IsDefined()) return default_value;
@@ -20,19 +23,17 @@ double ReadProbability(YamlReader& reader, const char* key, double default_value
 }  // namespace
 
 LimitFile ReadLimitFile(YamlReader reader) {
-  static const std::vector<std::string> kKeys = {"study", "false_alarm", "confidence", "limits"};
+  static const std::vector<std::string> kKeys = {"study", "false_alarm", "confidence", "limits",
+                                                 kFormerKey};
   const YAML::Node& root = reader.root();
-  if (root.IsMap() && root["bounds"].IsDefined()) {
-    reader.AddFault(root["bounds"], "what was called bounds is called limits now");
-    reader.ThrowIfFaulty();
-  }
   reader.CheckKeys(root, "a file of limits", kKeys);
   if (!root.IsMap()) reader.ThrowIfFaulty();
   LimitFile file;
   if (root["study"].IsDefined()) file.study = reader.Text(root["study"], "study").value_or("");
   file.false_alarm = ReadProbability(reader, "false_alarm", file.false_alarm);
   const double confidence = ReadProbability(reader, "confidence", Limit{}.confidence);
-  const YAML::Node limits = root["limits"];
+  const bool is_former = !root["limits"].IsDefined() && root[kFormerKey].IsDefined();
+  const YAML::Node limits = root[is_former ? kFormerKey : "limits"];
   if (!limits.IsDefined() || !limits.IsSequence() || limits.size() == 0) {
     reader.AddFault(limits.IsDefined() ? limits : root, "limits must be a list of at least one");
     reader.ThrowIfFaulty();
