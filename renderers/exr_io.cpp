@@ -102,9 +102,9 @@ ExrImage ReadOrThrow(const std::filesystem::path& file, const ExrReadOptions& op
 
 }  // namespace
 
-void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& channels,
+void WriteExr(const OutputPath& file, const std::vector<ExrChannel>& channels,
               const std::map<std::string, std::string>& metadata) {
-  Check(file, channels);
+  Check(file.path(), channels);
   const cv::Size size = channels.front().values.size();
   StringStream stream;
   try {
@@ -112,7 +112,7 @@ void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& 
     header.compression() = Imf::ZIP_COMPRESSION;
     for (const auto& [name, text] : metadata) {
       if (header.find(name) != header.end()) {
-        throw InputError(file, "metadata '" + name + "' is a reserved name");
+        throw InputError(file.path(), "metadata '" + name + "' is a reserved name");
       }
       header.insert(name, Imf::StringAttribute(text));
     }
@@ -127,7 +127,7 @@ void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& 
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {
-    throw InputError(file, error.what());
+    throw InputError(file.path(), error.what());
   }
   WriteFileAtomically(file, stream.bytes());
 }

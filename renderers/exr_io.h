@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/io/output_path.h"
+
 namespace fenestra {
 
 /// A named plane of an OpenEXR image, such as "Y", "R" or "depth.Z".
@@ -24,7 +26,7 @@ struct ExrImage {
 /// Writes 32-bit float channels, ZIP-compressed and so without loss, NaN and infinities included.
 /// The file appears by rename. Throws InputError if there are no channels, their sizes differ, a
 /// name is empty or used twice, metadata uses a reserved name, or the file cannot be written.
-void WriteExr(const std::filesystem::path& file, const std::vector<ExrChannel>& channels,
+void WriteExr(const OutputPath& file, const std::vector<ExrChannel>& channels,
               const std::map<std::string, std::string>& metadata);
 
 struct ExrReadOptions {

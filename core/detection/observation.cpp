@@ -30,19 +30,21 @@ ObservationFiles ObservationFiles::In(const std::filesystem::path& folder, Senso
   return files;
 }
 
-void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
+void WriteObservation(const OutputPath& folder, const Observation& observation,
                       const SensorCalibration& calibration) {
   if (const auto* stereo = std::get_if<StereoObservation>(&observation)) {
-    const auto files = ObservationFiles::In(folder, SensorKind::kStereo);
-    WritePng(files.left, stereo->left);
-    WritePng(files.right, stereo->right);
-    WriteFileAtomically(files.calibration, ToOpenCvYaml(std::get<StereoCalibration>(calibration)));
+    const auto files = ObservationFiles::In({}, SensorKind::kStereo);
+    WritePng(folder / files.left, stereo->left);
+    WritePng(folder / files.right, stereo->right);
+    WriteFileAtomically(folder / files.calibration,
+                        ToOpenCvYaml(std::get<StereoCalibration>(calibration)));
   } else {
-    const auto files = ObservationFiles::In(folder, SensorKind::kRgbd);
+    const auto files = ObservationFiles::In({}, SensorKind::kRgbd);
     const auto& rgbd = std::get<RgbdObservation>(observation);
-    WritePng(files.color, rgbd.color);
-    WritePng(files.depth, rgbd.depth.raw);
-    WriteFileAtomically(files.calibration, ToOpenCvYaml(std::get<RgbdCalibration>(calibration)));
+    WritePng(folder / files.color, rgbd.color);
+    WritePng(folder / files.depth, rgbd.depth.raw);
+    WriteFileAtomically(folder / files.calibration,
+                        ToOpenCvYaml(std::get<RgbdCalibration>(calibration)));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/geometry/calibration.h"
+#include "core/io/output_path.h"
 
 namespace fenestra {
 
@@ -54,7 +55,7 @@ struct ObservationFiles {
 };
 
 /// Writes an observation and its calibration alone, without loss, under the names above.
-void WriteObservation(const std::filesystem::path& folder, const Observation& observation,
+void WriteObservation(const OutputPath& folder, const Observation& observation,
                       const SensorCalibration& calibration);
 
 struct RecordedObservation {

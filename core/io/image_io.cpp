@@ -109,9 +109,9 @@ cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
   return image;
 }
 
-void WritePng(const std::filesystem::path& file, const cv::Mat& image) {
+void WritePng(const OutputPath& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw InputError(file, "cannot be encoded as PNG");
+  if (!cv::imencode(".png", image, bytes)) throw InputError(file.path(), "cannot be encoded as PNG");
   WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 

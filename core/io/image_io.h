@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "core/io/output_path.h"
+
 namespace fenestra {
 
 /// Image files as sensors and recorders write them. All readers throw InputError for a file that
@@ -18,6 +20,6 @@ cv::Mat3b ReadColorImage(const std::filesystem::path& file);
 cv::Mat1w ReadDepthImage(const std::filesystem::path& file);
 
 /// Writes a PNG file that appears by rename. Throws InputError if it cannot be written.
-void WritePng(const std::filesystem::path& file, const cv::Mat& image);
+void WritePng(const OutputPath& file, const cv::Mat& image);
 
 }  // namespace fenestra

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/io/input_error.h"
+#include "core/io/sha256.h"
 
 namespace fenestra {
 
@@ -48,6 +49,12 @@ void RemoveWhatWasLeft(const fs::path& parent) {
   }
 }
 
+// With the system's reason: the streams of the library keep none but errno.
+std::string CannotBeWritten() {
+  return errno == 0 ? "cannot be written"
+                    : fmt::format("cannot be written: {}", std::strerror(errno));
+}
+
 }  // namespace
 
 std::filesystem::path TemporaryBeside(const std::filesystem::path& file) {
@@ -57,37 +64,36 @@ std::filesystem::path TemporaryBeside(const std::filesystem::path& file) {
   return temporary;
 }
 
-void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes) {
+void WriteFileAtomically(const OutputPath& file, std::string_view bytes) {
   WriteFileAtomically(file, [bytes](std::ostream& stream) {
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   });
 }
 
-void WriteFileAtomically(const std::filesystem::path& file,
-                         const std::function<void(std::ostream&)>& write) {
+void WriteFileAtomically(const OutputPath& file, const std::function<void(std::ostream&)>& write) {
+  const fs::path& path = file.path();
   std::error_code error;
-  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
-  if (error) throw InputError(file, "its folder cannot be made: " + error.message());
-  const std::filesystem::path temporary = TemporaryBeside(file);
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+  if (error) throw InputError(path, "its folder cannot be made: " + error.message());
+  const fs::path temporary = TemporaryBeside(path);
   {
+    errno = 0;
     std::ofstream stream(temporary, std::ios::binary);
     try {
-      write(stream);
+      if (stream) write(stream);
+      stream.close();
+      if (!stream) throw InputError(path, CannotBeWritten());
+      if (file.IsRecorded()) file.Claim(Sha256OfFile(temporary));
     } catch (...) {
-      std::filesystem::remove(temporary, error);
+      fs::remove(temporary, error);
       throw;
     }
-    stream.close();
-    if (!stream) {
-      std::filesystem::remove(temporary, error);
-      throw InputError(file, "cannot be written");
-    }
   }
-  std::filesystem::rename(temporary, file, error);
+  fs::rename(temporary, path, error);
   if (error) {
     const std::string reason = error.message();
-    std::filesystem::remove(temporary, error);
-    throw InputError(file, "cannot be written: " + reason);
+    fs::remove(temporary, error);
+    throw InputError(path, "cannot be written: " + reason);
   }
 }
 

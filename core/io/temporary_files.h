@@ -5,6 +5,8 @@
 #include <iosfwd>
 #include <string_view>
 
+#include "core/io/output_path.h"
+
 namespace fenestra {
 
 /// A name beside `file` that no other process and no other thread uses, for what becomes `file`
@@ -13,12 +15,11 @@ std::filesystem::path TemporaryBeside(const std::filesystem::path& file);
 
 /// Writes `bytes` to a temporary file in the same folder, which is made if it is missing, and
 /// renames it to `file`: readers see the old file or the whole new one. Throws InputError.
-void WriteFileAtomically(const std::filesystem::path& file, std::string_view bytes);
+void WriteFileAtomically(const OutputPath& file, std::string_view bytes);
 
 /// Writes a file that is too large for memory in the same way: `write` puts it into the stream. If
 /// `write` throws, nothing is left behind.
-void WriteFileAtomically(const std::filesystem::path& file,
-                         const std::function<void(std::ostream&)>& write);
+void WriteFileAtomically(const OutputPath& file, const std::function<void(std::ostream&)>& write);
 
 /// A new folder that only this user can enter, removed with its contents at the end of the scope.
 /// It is in memory (/dev/shm) if possible, otherwise among the temporary files. Folders that killed

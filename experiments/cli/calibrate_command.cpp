@@ -59,14 +59,14 @@ CalibrationBoard BoardOf(const CalibrateArguments& arguments) {
 
 void Calibrate(const CalibrateArguments& arguments) {
   const CalibrationBoard board = BoardOf(arguments);
+  const OutputPath out = OutputPath::Folder(arguments.out);
+  out.RequireFree(kCalibrationFiles);
   const auto pairs = PairUp(ImageFiles(arguments.left), ImageFiles(arguments.right));
   const StereoCalibrationResult result =
       CalibrateFromPictures(pairs, board, {.free_k3 = arguments.free_k3});
-  WriteCalibration(arguments.out, result, board);
-  fmt::print(
-      "{}\nIn {}: stereo.yaml, left.yaml, right.yaml, report.md, covariance.csv, "
-      "residuals.png\n",
-      CalibrationReport(result, board, ReportFormat::kPlain), arguments.out.string());
+  WriteCalibration(out, result, board);
+  fmt::print("{}\nIn {}: {}\n", CalibrationReport(result, board, ReportFormat::kPlain),
+             arguments.out.string(), fmt::join(kCalibrationFiles, ", "));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "experiments/check/check_report.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/study_run_arguments.h"
+#include "experiments/run/stored_study.h"
 #include "experiments/run/result_files.h"
 #include "experiments/store/store.h"
 #include "experiments/study_file/study_catalogue.h"
@@ -56,6 +57,11 @@ int Check(const CheckArguments& arguments) {
   if (!arguments.baseline.empty()) baseline = OpenResults(arguments.baseline).Rows();
   const fs::path results = arguments.results.empty() ? Run(arguments, file) : arguments.results;
   const ResultStore store = OpenResults(results);
+  if (const std::string part = PartStored(store, results); !part.empty()) {
+    throw std::runtime_error(fmt::format(
+        "{}: holds {}; finish the run, or merge all of its shards, before it is checked",
+        results.string(), part));
+  }
   const CheckResult result =
       CheckLimits(arguments.limits.string(), file, StudyOf(store, results), store.Rows(), baseline);
   fmt::print("{}", CheckForTerminal(result));
@@ -80,7 +86,8 @@ void AddCheckCommand(Command program) {
       "  fenestra check limits.yaml                            runs the study that it names\n"
       "  fenestra check limits.yaml --results results/paper\n"
       "  fenestra check limits.yaml --results new --baseline old --markdown comment.md\n"
-      "Exit codes: 0 no limit is violated, 1 one is (with --strict: or is undecided).");
+      "Exit codes: 0 no limit is violated, 1 one is (with --strict: or is undecided), 3 trials are "
+      "missing.");
   const auto arguments = std::make_shared<CheckArguments>();
   command.AddOption("LIMITS", arguments->limits, "File of limits (YAML)").Required();
   Option results =

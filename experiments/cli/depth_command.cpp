@@ -5,8 +5,8 @@
 #include "core/io/image_io.h"
 #include "core/io/temporary_files.h"
 #include "experiments/cli/commands.h"
-#include "experiments/depth_curves/depth_curves_report.h"
 #include "experiments/depth_curves/depth_curves_picture.h"
+#include "experiments/depth_curves/depth_curves_report.h"
 
 namespace fenestra::cli {
 
@@ -26,13 +26,15 @@ void AddDepthCommand(Command program) {
   command.AddOption("DIR", *folder, "Folder for tables and pictures").Required();
   command.AddOption("--seed", *seed, "Of the noise").ShowDefault();
   command.Action([folder, seed] {
+    const OutputPath out = OutputPath::Folder(*folder);
+    out.RequireFree({"depth_curves.md", "depth_curves.png"});
     StructuredLightOptions options;
     const DepthCurves parametric = MeasureDepthCurves(options, RandomStream(*seed));
     options.depth_model = DepthModel::kMatched;
     const DepthCurves speckle = MeasureDepthCurves(options, RandomStream(*seed));
     const std::string report = DepthCurvesMarkdown(options, parametric, speckle);
-    WriteFileAtomically(*folder / "depth_curves.md", report);
-    WritePng(*folder / "depth_curves.png", DepthCurvesPicture(parametric, speckle));
+    WriteFileAtomically(out / "depth_curves.md", report);
+    WritePng(out / "depth_curves.png", DepthCurvesPicture(parametric, speckle));
     fmt::print("{}\nIn {}: depth_curves.md, depth_curves.png\n", report, folder->string());
     return kDone;
   });

@@ -30,7 +30,7 @@ void Detect(const DetectArguments& arguments, const Observation& observation,
   const Detection detection = detector->Detect(observation, log);
   log.End();
   if (!arguments.pictures.empty()) {
-    WritePictures(arguments.pictures, observation, calibration, nullptr,
+    WritePictures(OutputPath::Folder(arguments.pictures), observation, calibration, nullptr,
                   std::get_if<WindowEstimate>(&detection), log);
   }
   fmt::print("{}", arguments.json ? DetectionJson(choice.label, detection, log)

@@ -68,22 +68,24 @@ TrialSettings SettingsOf(const EmvaArguments& arguments) {
   return settings;
 }
 
-void WriteResults(const std::filesystem::path& folder, const emva::Results& results,
+void WriteResults(const OutputPath& folder, const emva::Results& results,
                   const std::optional<emva::PutIn>& put_in) {
   WriteFileAtomically(folder / "report.md", emva::ReportMarkdown(results, put_in));
   WriteFileAtomically(folder / "results.json", emva::ReportJson(results, put_in));
   WritePng(folder / "photon_transfer.png", emva::PhotonTransferPicture(results));
   fmt::print("{}\nIn {}: emva1288.txt, report.md, results.json, photon_transfer.png\n",
-             emva::ReportText(results, put_in), folder.string());
+             emva::ReportText(results, put_in), folder.path().string());
 }
 
 void Emva(const EmvaArguments& arguments) {
   const std::filesystem::path descriptor = arguments.folder / "emva1288.txt";
+  const OutputPath folder = OutputPath::Folder(arguments.folder);
+  folder.RequireFree({"report.md", "results.json", "photon_transfer.png"});
   if (arguments.evaluate_only) {
     const emva::Series series = emva::ReadDescriptor(descriptor);
-    return WriteResults(arguments.folder,
-                        emva::Evaluate(series, emva::FilesBeside(descriptor, series)), {});
+    return WriteResults(folder, emva::Evaluate(series, emva::FilesBeside(descriptor, series)), {});
   }
+  folder.RequireFree({descriptor.filename().string()});
   const TrialSettings settings = SettingsOf(arguments);
   const ImageSensorOptions& sensor = settings.stereo.sensor;
   emva::SimulationOptions simulation = arguments.simulation;
@@ -91,11 +93,11 @@ void Emva(const EmvaArguments& arguments) {
   simulation.quantum_efficiency = settings.stereo.spectrum.quantum_efficiency_scale *
                                   QuantumEfficiency(simulation.wavelength_nm);
   const emva::Series series = emva::PlanSeries(simulation, sensor);
-  emva::WriteSeries(arguments.folder, series,
+  emva::WriteSeries(folder, series,
                     emva::Simulate(simulation, sensor, RandomStream(arguments.seed)));
   // What was written is what is measured.
   const emva::Series written = emva::ReadDescriptor(descriptor);
-  WriteResults(arguments.folder, emva::Evaluate(written, emva::FilesBeside(descriptor, written)),
+  WriteResults(folder, emva::Evaluate(written, emva::FilesBeside(descriptor, written)),
                emva::PutInBy(simulation, sensor));
 }
 

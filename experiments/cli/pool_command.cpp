@@ -8,6 +8,7 @@
 #include "core/io/input_error.h"
 #include "experiments/check/limit_text.h"
 #include "experiments/cli/commands.h"
+#include "experiments/cli/study_run_arguments.h"
 #include "experiments/report/pooled_report.h"
 #include "experiments/run/result_files.h"
 #include "experiments/store/store.h"
@@ -46,10 +47,11 @@ std::vector<Condition> ConditionsOf(const Study& study, std::span<const Cell> ce
   }
 }
 
-int Pool(PoolArguments arguments) {
+int Pool(const PoolArguments& arguments) {
   CheckMetrics(arguments.metrics);
   const std::filesystem::path file = StoreFile(arguments.results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
+  NoteMissingTrials(store, file);
   const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   Pooling pooling{.where = ConditionsOf(study, cells, arguments.where)};

@@ -43,9 +43,10 @@ bool IsSceneFile(const std::filesystem::path& file) {
 
 void RenderTrial(const RenderArguments& arguments) {
   LoadPlugins(arguments.plugins);
+  const OutputPath out = OutputPath::Folder(arguments.out);
   const Study study = ReadStudyFile(FindStudy(arguments.what), Detectors());
   if (arguments.sequence) {
-    const int frames = WriteSequence(arguments.out, study, *arguments.sequence);
+    const int frames = WriteSequence(out, study, *arguments.sequence);
     fmt::print("{} trials of '{}' are in {}\n", frames, study.name,
                (arguments.out / "sequence.yaml").string());
     return;
@@ -55,7 +56,7 @@ void RenderTrial(const RenderArguments& arguments) {
     throw InputError("--trial", fmt::format("must not be negative, but is {}", arguments.trial));
   }
   const CellRunner runner(study, cell);
-  WriteTrialFiles(arguments.out, runner, runner.Simulate(arguments.trial));
+  WriteTrialFiles(out, runner, runner.Simulate(arguments.trial));
   fmt::print("Cell {} trial {} of '{}' is in {}\n", arguments.cell, arguments.trial, study.name,
              arguments.out.string());
 }
@@ -77,7 +78,7 @@ void RenderScene(RenderArguments arguments) {
   const GltfScene world = ReadGltf(arguments.what, {.target_node = arguments.target});
   for (const std::string& note : world.notes) fmt::print(stderr, "note: {}\n", note);
   arguments.view.lighting = LightingFor(arguments, world);
-  WriteSceneViews(arguments.out, world, arguments.view);
+  WriteSceneViews(OutputPath::Folder(arguments.out), world, arguments.view);
   const size_t cameras = CamerasOf(world, arguments.view).size();
   fmt::print("{} view{} of {} in {}\n", cameras, cameras == 1 ? " is" : "s are", arguments.what,
              arguments.out.string());

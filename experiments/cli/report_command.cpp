@@ -26,14 +26,15 @@ void Report(const ReportArguments& arguments) {
   LoadPlugins(arguments.plugins);
   const std::filesystem::path file = StoreFile(arguments.results);
   const ResultStore store = ResultStore::OpenReadOnly(file);
-  const std::filesystem::path out = arguments.out.empty() ? file.parent_path() : arguments.out;
+  const OutputPath out = ResultsFolder(arguments.out.empty() ? file.parent_path() : arguments.out);
+  NoteMissingTrials(store, file);
   const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   const std::vector<CellSummary> summaries = WriteResultFiles(store, study, cells, out);
   if (arguments.pictures) {
     WriteResultPictures(store, study, cells, out, arguments.jobs, MakerWith(arguments.plugins));
   }
-  PrintResult(summaries, out);
+  PrintResult(summaries, out.path());
 }
 
 }  // namespace
@@ -76,6 +77,7 @@ void AddRatiosCommand(Command program) {
   command.Action([results, factor] {
     const std::filesystem::path file = StoreFile(*results);
     const ResultStore store = ResultStore::OpenReadOnly(file);
+    NoteMissingTrials(store, file);
     const std::vector<TrialRecord> rows = store.Rows();
     const std::vector<PairedCells> pairs = PairsBy(rows, *factor, ContextOf(store, file));
     fmt::print("{}", PairedRatioTable(pairs, *factor, RandomStream(1)));

@@ -15,6 +15,7 @@ namespace {
 struct ScoreArguments {
   std::filesystem::path sequence;
   std::filesystem::path out;
+  bool restart = false;
   std::vector<std::string> detectors;
   std::vector<std::string> detections;  ///< "label=file"
   std::vector<std::filesystem::path> plugins;
@@ -62,6 +63,7 @@ void Score(const ScoreArguments& arguments) {
   SequenceRun run{.sequence = ReadSequence(arguments.sequence),
                   .made = {},
                   .out = arguments.out,
+                  .restart = arguments.restart,
                   .detectors = MakerWith(arguments.plugins)};
   run.sequence.detectors = Asked(arguments, run.sequence);
   for (const std::string& argument : arguments.detections) {
@@ -86,6 +88,7 @@ void AddScoreCommand(Command program) {
   const auto arguments = std::make_shared<ScoreArguments>();
   command.AddOption("SEQUENCE", arguments->sequence, "File that lists the frames").Required();
   command.AddOption("--out", arguments->out, "Results folder; default: results/<name>");
+  command.AddFlag("--restart", arguments->restart, "Replace another result that is there");
   command
       .AddOption("--detector", arguments->detectors,
                  "Only this one of the sequence's detectors; may be given several times")

@@ -78,9 +78,10 @@ void Submit(const SubmitArguments& arguments) {
                (folder / "array.sh").string(), kDependent, (folder / "merge.sh").string());
     return;
   }
-  WriteFileAtomically(submission.study, run.study_text);
-  WriteFileAtomically(folder / "array.sh", SlurmArrayScript(submission));
-  WriteFileAtomically(folder / "merge.sh", SlurmMergeScript(submission));
+  const OutputPath scripts = OutputPath::Folder(folder);
+  WriteFileAtomically(scripts / submission.study.filename(), run.study_text);
+  WriteFileAtomically(scripts / "array.sh", SlurmArrayScript(submission));
+  WriteFileAtomically(scripts / "merge.sh", SlurmMergeScript(submission));
   const std::string array = Submit("", folder / "array.sh");
   const std::string merge = Submit(kDependent + array, folder / "merge.sh");
   fmt::print("Submitted: array {} of {} shards, then merge {}. The result will be in {}\n", array,

@@ -11,6 +11,7 @@
 #include "experiments/cli/progress.h"
 #include "experiments/report/provenance.h"
 #include "experiments/report/report.h"
+#include "experiments/run/stored_study.h"
 #include "experiments/study_file/study_reader.h"
 #include "vision/detector_registry.h"
 
@@ -79,6 +80,11 @@ StudyResult RunWithProgress(StudyRun run) {
   run.on_stored = [&progress](std::span<const TrialRecord> rows) { progress.Add(rows); };
   run.stop = [&watch] { return watch.requested(); };
   return RunStudy(run);
+}
+
+void NoteMissingTrials(const ResultStore& store, const std::filesystem::path& file) {
+  const std::string part = PartStored(store, file);
+  if (!part.empty()) fmt::print(stderr, "note: {} holds {}\n", file.string(), part);
 }
 
 void PrintResult(const std::vector<CellSummary>& summaries, const std::filesystem::path& folder) {

@@ -8,6 +8,7 @@
 #include "experiments/analysis/cell_summary.h"
 #include "experiments/cli/command_line.h"
 #include "experiments/run/run_study.h"
+#include "experiments/store/store.h"
 
 namespace fenestra::cli {
 
@@ -38,6 +39,9 @@ StudyRun MakeStudyRun(const std::filesystem::path& study_file, const StudyRunArg
 StudyResult RunWithProgress(StudyRun run);
 
 /// Prints the tables of a result, the prior knowledge of its detectors, and where its files are.
+/// Says on standard error if the store lacks trials of its study.
+void NoteMissingTrials(const ResultStore& store, const std::filesystem::path& file);
+
 void PrintResult(const std::vector<CellSummary>& summaries, const std::filesystem::path& folder);
 
 }  // namespace fenestra::cli

@@ -145,7 +145,7 @@ PutIn PutInBy(const SimulationOptions& options, const ImageSensorOptions& sensor
           .prnu = sensor.fixed_pattern ? sensor.prnu : 0.0};
 }
 
-std::filesystem::path WriteSeries(const std::filesystem::path& folder, const Series& series,
+std::filesystem::path WriteSeries(const OutputPath& folder, const Series& series,
                                   const ImageReader& images) {
   for (const ImageSet& set : series.sets) {
     for (size_t i = 0; i < set.files.size(); ++i) {
@@ -155,9 +155,9 @@ std::filesystem::path WriteSeries(const std::filesystem::path& folder, const Ser
       WritePng(folder / set.files[i], image);
     }
   }
-  const std::filesystem::path descriptor = folder / "emva1288.txt";
+  const OutputPath descriptor = folder / "emva1288.txt";
   WriteFileAtomically(descriptor, ToDescriptor(series));
-  return descriptor;
+  return descriptor.path();
 }
 
 }  // namespace fenestra::emva

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/io/output_path.h"
 #include "core/random/random_stream.h"
 #include "experiments/emva/evaluation.h"
 #include "sim/camera/image_sensor.h"
@@ -45,7 +46,7 @@ PutIn PutInBy(const SimulationOptions& options, const ImageSensorOptions& sensor
 
 /// Writes all images (PNG, of 8 bits or 16) and, at last, the descriptor emva1288.txt into the
 /// folder. Returns the descriptor's path.
-std::filesystem::path WriteSeries(const std::filesystem::path& folder, const Series& series,
+std::filesystem::path WriteSeries(const OutputPath& folder, const Series& series,
                                   const ImageReader& images);
 
 }  // namespace fenestra::emva

@@ -41,9 +41,8 @@ std::map<std::string, std::string> RowReports::Files() const {
   return files;
 }
 
-void WriteRowReports(const RowReports& reports, const Study& study,
-                     const std::filesystem::path& folder) {
-  for (const std::string& name : kRowReportFiles) std::filesystem::remove(folder / name);
+void WriteRowReports(const RowReports& reports, const Study& study, const OutputPath& folder) {
+  folder.RemoveOwn(kRowReportFiles);
   for (const auto& [name, text] : reports.Files()) WriteFileAtomically(folder / name, text);
   if (const auto picture = EnvelopePicture(study, reports.Envelopes())) {
     WritePng(folder / "envelope.png", *picture);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/io/output_path.h"
 #include "experiments/analysis/detector_comparison.h"
 #include "experiments/analysis/error_budget.h"
 #include "experiments/analysis/trial_plan.h"
@@ -42,8 +43,7 @@ class RowReports {
 };
 
 /// Writes Files() and, for an envelope with curves to draw, envelope.png.
-void WriteRowReports(const RowReports& reports, const Study& study,
-                     const std::filesystem::path& folder);
+void WriteRowReports(const RowReports& reports, const Study& study, const OutputPath& folder);
 
 /// The names of all files that WriteRowReports may write.
 inline const std::vector<std::string> kRowReportFiles{"comparison.csv", "error_budget.csv",

@@ -257,7 +257,7 @@ std::string CovarianceCsv(const StereoCalibrationResult& result) {
   return csv.text();
 }
 
-void WriteCalibration(const std::filesystem::path& folder, const StereoCalibrationResult& result,
+void WriteCalibration(const OutputPath& folder, const StereoCalibrationResult& result,
                       const CalibrationBoard& board) {
   const std::array<RosRectification, 2> rectification = RectificationOf(result.calibration);
   WriteFileAtomically(folder / "stereo.yaml", ToOpenCvYaml(result.calibration));

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/geometry/calibration_board.h"
+#include "core/io/output_path.h"
 #include "vision/calibration/stereo_calibration.h"
 
 namespace fenestra {
@@ -25,7 +26,11 @@ cv::Mat3b ResidualPicture(const StereoCalibrationResult& result);
 /// Writes stereo.yaml (OpenCV), left.yaml and right.yaml (ROS camera_info, with the pair's
 /// rectification), report.md, covariance.csv and residuals.png. Throws InputError if a file cannot
 /// be written.
-void WriteCalibration(const std::filesystem::path& folder, const StereoCalibrationResult& result,
+/// The files of WriteCalibration.
+inline const std::vector<std::string> kCalibrationFiles = {
+    "stereo.yaml", "left.yaml", "right.yaml", "report.md", "covariance.csv", "residuals.png"};
+
+void WriteCalibration(const OutputPath& folder, const StereoCalibrationResult& result,
                       const CalibrationBoard& board);
 
 }  // namespace fenestra

@@ -71,6 +71,7 @@ std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, 
     throw InputError(file, fmt::format("holds no trial {}/{} (cell/trial)", cell, trial));
   }
 
+  const OutputPath folder = OutputPath::Folder(out);
   const Study study = StudyOf(store, file);
   const std::vector<Cell> cells = Cells(study);
   const std::vector<TrialKey> trials = {{cell, trial}};
@@ -84,8 +85,8 @@ std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, 
       }
     }
     if (out.empty()) return;
-    WritePictures(out / "pictures", finished);
-    WriteTrialFiles(out, finished.runner, finished.simulated);
+    WritePictures(folder / "pictures", finished);
+    WriteTrialFiles(folder, finished.runner, finished.simulated);
   });
   for (ReplayedRow& row : rows) row.differences = Differences(row.recorded, row.repeated);
   return rows;

@@ -16,9 +16,7 @@
 #include "experiments/report/report.h"
 #include "experiments/report/row_reports.h"
 #include "experiments/run/run_trials.h"
-#include "experiments/study_file/study_reader.h"
 #include "experiments/trial_files/trial_files.h"
-#include "vision/detector_registry.h"
 
 namespace fenestra {
 namespace fs = std::filesystem;
@@ -32,13 +30,16 @@ std::string Get(const StoreMetadata& metadata, const std::string& key) {
   return found == metadata.end() ? "" : found->second;
 }
 
-ReportTitle TitleOf(const ResultStore& store, const Study& study) {
+ReportTitle TitleOf(const ResultStore& store, const Study& study, const fs::path& file) {
   const StoreMetadata metadata = store.Metadata();
   ReportTitle title{.study = study.name,
                     .description = Get(metadata, "description"),
                     .provenance = {{"Fenestra", Get(metadata, "version")},
                                    {"Seed", std::to_string(study.seed)},
                                    {"Libraries", Get(metadata, "libraries")}}};
+  if (const std::string part = PartStored(store, file); !part.empty()) {
+    title.provenance.insert(title.provenance.begin(), {"Not whole", part});
+  }
   if (const std::vector<RunEntry> runs = store.Runs(); !runs.empty()) {
     title.provenance.emplace_back("Processor", runs.back().processor);
     title.provenance.emplace_back("Jobs", std::to_string(runs.back().jobs));
@@ -46,6 +47,19 @@ ReportTitle TitleOf(const ResultStore& store, const Study& study) {
   const auto priors = PriorEntries(study);
   title.provenance.insert(title.provenance.end(), priors.begin(), priors.end());
   return title;
+}
+
+std::vector<std::string> TextFileNames() {
+  std::vector<std::string> names(std::begin(kTextFiles), std::end(kTextFiles));
+  names.insert(names.end(), kRowReportFiles.begin(), kRowReportFiles.end());
+  return names;
+}
+
+// The pictures, too.
+std::vector<std::string> ResultFileNames() {
+  std::vector<std::string> names = TextFileNames();
+  names.push_back("pictures");
+  return names;
 }
 
 // Sums up rows, of which those of a cell must agree about what it is.
@@ -71,31 +85,6 @@ class CheckedSummariser {
 
 }  // namespace
 
-fs::path StoreFile(const fs::path& results) {
-  return fs::is_directory(results) ? results / ResultStore::kFileName : results;
-}
-
-Study StudyOf(const ResultStore& store, const fs::path& file) {
-  if (!store.Metadata().contains("study")) {
-    throw InputError(file, "holds no study: a recorded sequence is scored again");
-  }
-  return ReadStudy(YamlReader::FromText(Get(store.Metadata(), "study"), file.string() + " (study)"),
-                   Detectors());
-}
-
-RowContext ContextOf(const ResultStore& store, const fs::path& file) {
-  if (!store.Metadata().contains("study")) return RowContext();
-  const Study study = StudyOf(store, file);
-  return RowContext(study, Cells(study));
-}
-
-void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row, const fs::path& file) {
-  const auto cell = static_cast<size_t>(row.cell);
-  if (cell < cells.size() && row.trial < cells[cell].repetitions) return;
-  throw InputError(file, fmt::format("has a row of trial {} of cell {}, which its study has not",
-                                     row.trial, row.cell));
-}
-
 std::vector<CellSummary> Summarise(const ResultStore& store, RowContext context) {
   CheckedSummariser summariser(ResultStore::kFileName, std::move(context));
   store.ForEachRow([&summariser](const TrialRecord& row) { summariser.Add(row); });
@@ -103,8 +92,8 @@ std::vector<CellSummary> Summarise(const ResultStore& store, RowContext context)
 }
 
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
-                                          std::span<const Cell> cells, const fs::path& folder) {
-  const fs::path file = folder / ResultStore::kFileName;
+                                          std::span<const Cell> cells, const OutputPath& folder) {
+  const fs::path file = folder.path() / ResultStore::kFileName;
   CheckedSummariser summariser(file, RowContext(study, cells));
   PooledMetrics pooled(study, cells, {.metrics = {"hit_rate", "false_alarm_rate"}});
   store.ForEachRow([&](const TrialRecord& row) {
@@ -121,9 +110,9 @@ std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study&
   WriteFileAtomically(folder / "intervals.csv", IntervalsCsv(summaries));
   RowReports reports(study, cells);
   store.ForEachRow([&reports](const TrialRecord& row) { reports.Add(row); });
-  WriteFileAtomically(
-      folder / "summary.md",
-      SummaryMarkdown(TitleOf(store, study), summaries, pooled.Groups()) + reports.Markdown());
+  WriteFileAtomically(folder / "summary.md",
+                      SummaryMarkdown(TitleOf(store, study, file), summaries, pooled.Groups()) +
+                          reports.Markdown());
   WriteRowReports(reports, study, folder);
   return summaries;
 }
@@ -135,19 +124,27 @@ bool HasResultFiles(const fs::path& folder) {
   return true;
 }
 
-void RemoveResultFiles(const fs::path& folder) {
-  for (const char* name : kTextFiles) fs::remove(folder / name);
-  for (const std::string& name : kRowReportFiles) fs::remove(folder / name);
-  fs::remove_all(folder / "pictures");
+OutputPath ResultsFolder(const fs::path& folder) {
+  const OutputPath results = OutputPath::Folder(folder);
+  if (!results.HasRecord() && fs::exists(folder / ResultStore::kFileName)) {
+    ResultStore::OpenReadOnly(folder / ResultStore::kFileName);  // Throws if it is none.
+    results.Adopt(ResultFileNames());
+  }
+  results.RequireFree(TextFileNames());
+  return results;
 }
 
-fs::path PictureFolder(const fs::path& folder, const Cell& cell) {
+void RemoveResultFiles(const OutputPath& folder) {
+  folder.RemoveOwn(ResultFileNames());
+}
+
+OutputPath PictureFolder(const OutputPath& folder, const Cell& cell) {
   return folder / "pictures" /
          fmt::format("cell_{:03}_{}_{}", cell.index, cell.part, ToString(cell.sensor));
 }
 
 void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
-                         const fs::path& folder, int jobs,
+                         const OutputPath& folder, int jobs,
                          std::shared_ptr<DetectorMaker> detectors) {
   std::vector<TrialKey> first;
   for (const TrialKey key : store.FinishedTrials()) {
@@ -163,7 +160,7 @@ void WriteResultPictures(const ResultStore& store, const Study& study, std::span
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
+  if (std::filesystem::create_directories(folder, error)) made_ = folder;
   if (error) throw InputError(folder, "the folder cannot be made: " + error.message());
   descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (descriptor_ < 0) throw InputError(folder, "is not a folder that can be read");
@@ -174,6 +171,8 @@ FolderLock::FolderLock(const std::filesystem::path& folder) {
 }
 
 FolderLock::~FolderLock() {
+  std::error_code not_empty;
+  if (!made_.empty()) fs::remove(made_, not_empty);
   close(descriptor_);
 }
 

@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "core/io/output_path.h"
 #include "experiments/analysis/cell_summary.h"
 #include "experiments/analysis/row_context.h"
+#include "experiments/run/stored_study.h"
 #include "experiments/store/store.h"
 #include "experiments/study/study.h"
 #include "experiments/trial/detector_maker.h"
@@ -27,38 +29,28 @@ namespace fenestra {
 ///
 /// docs/results.md describes them to users.
 
-/// results.sqlite in a results folder; a path that is not a folder is taken for the file itself.
-std::filesystem::path StoreFile(const std::filesystem::path& results);
-
-/// The resolved study of a store. Throws InputError if this program cannot read it.
-Study StudyOf(const ResultStore& store, const std::filesystem::path& file);
-
-/// What a store's study says of its rows; of a recorded sequence, that each is independent.
-RowContext ContextOf(const ResultStore& store, const std::filesystem::path& file);
-
-/// Throws InputError if the study has no such trial.
-void RequireTrialOf(std::span<const Cell> cells, const TrialRecord& row,
-                    const std::filesystem::path& file);
-
 /// Summaries of all rows; holds the numbers of one cell at a time. Without a context every row is
 /// taken for independent.
 std::vector<CellSummary> Summarise(const ResultStore& store, RowContext context = {});
 
 /// Writes all but the pictures. `study` is the store's, `cells` are all of its cells.
 std::vector<CellSummary> WriteResultFiles(const ResultStore& store, const Study& study,
-                                          std::span<const Cell> cells,
-                                          const std::filesystem::path& folder);
+                                          std::span<const Cell> cells, const OutputPath& folder);
 /// Whether they are all there.
 bool HasResultFiles(const std::filesystem::path& folder);
+
+/// A folder for results. Throws InputError where a file is in the way that this program has not
+/// written. Results of versions that kept no record of their files are known by their store.
+OutputPath ResultsFolder(const std::filesystem::path& folder);
 /// Deletes them and the pictures: they belong to a result that is about to be replaced.
-void RemoveResultFiles(const std::filesystem::path& folder);
+void RemoveResultFiles(const OutputPath& folder);
 
 /// Where the pictures of a cell belong.
-std::filesystem::path PictureFolder(const std::filesystem::path& folder, const Cell& cell);
+OutputPath PictureFolder(const OutputPath& folder, const Cell& cell);
 
 /// Makes the pictures again by running the first trial of every cell that the store has.
 void WriteResultPictures(const ResultStore& store, const Study& study, std::span<const Cell> cells,
-                         const std::filesystem::path& folder, int jobs,
+                         const OutputPath& folder, int jobs,
                          std::shared_ptr<DetectorMaker> detectors);
 
 /// Keeps two processes from running into the same results folder. Held while it lives; released by
@@ -73,6 +65,7 @@ class FolderLock {
   FolderLock& operator=(const FolderLock&) = delete;
 
  private:
+  std::filesystem::path made_;  ///< The folder, if it was missing; it goes again if it stays empty.
   int descriptor_ = -1;
 };
 

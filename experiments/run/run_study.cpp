@@ -3,18 +3,16 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <iterator>
 #include <optional>
 #include <utility>
 
 #include "core/io/input_error.h"
 #include "core/system/program.h"
-#include "experiments/analysis/trial_plan.h"
 #include "experiments/run/result_files.h"
 #include "experiments/run/run_identity.h"
+#include "experiments/run/stored_study.h"
 #include "experiments/run/trial_writer.h"
 #include "experiments/store/store.h"
 #include "experiments/trial_files/trial_files.h"
@@ -50,13 +48,6 @@ void CheckSame(const StoreMetadata& there, const StudyRun& run, const std::files
                                      fmt::join(differences, "; ")));
 }
 
-std::vector<TrialKey> Without(std::span<const TrialKey> trials, std::span<const TrialKey> stored) {
-  std::vector<TrialKey> missing;
-  std::set_difference(trials.begin(), trials.end(), stored.begin(), stored.end(),
-                      std::back_inserter(missing));
-  return missing;
-}
-
 // The store that this run continues, if there is one.
 std::optional<ResultStore> OpenEarlier(const StudyRun& run, const std::filesystem::path& file) {
   if (run.restart || !std::filesystem::exists(file)) return std::nullopt;
@@ -65,28 +56,11 @@ std::optional<ResultStore> OpenEarlier(const StudyRun& run, const std::filesyste
   return store;
 }
 
-ResultStore StartAfresh(const StudyRun& run, const std::filesystem::path& file) {
+ResultStore StartAfresh(const StudyRun& run, const OutputPath& out) {
+  const std::filesystem::path file = out.path() / ResultStore::kFileName;
   ResultStore store = ResultStore::Create(file, MetadataOf(run), ResultStore::IfExists::kReplace);
-  RemoveResultFiles(run.out);
+  RemoveResultFiles(out);
   return store;
-}
-
-// Whether what is there decides which trials are run.
-bool IsAdaptive(const Study& study) {
-  return std::any_of(study.parts.begin(), study.parts.end(),
-                     [](const StudyPart& part) { return part.until || part.envelope; });
-}
-
-std::vector<TrialKey> Missing(const StudyRun& run, std::span<const Cell> cells,
-                              const ResultStore& store) {
-  if (!IsAdaptive(run.study))
-    return Without(run.shard.Of(AllTrials(cells)), store.FinishedTrials());
-  TrialPlan plan(run.study, cells);
-  store.ForEachRow([&](const TrialRecord& row) {
-    RequireTrialOf(cells, row, StoreFile(run.out));
-    plan.Add(row);
-  });
-  return plan.Next();
 }
 
 void CheckShard(const StudyRun& run) {
@@ -96,46 +70,59 @@ void CheckShard(const StudyRun& run) {
                    "runs depends on what all the others gave");
 }
 
-void RunBatch(const StudyRun& run, std::span<const Cell> cells, std::span<const TrialKey> batch,
-              const std::function<bool()>& stop, ResultStore& store) {
-  TrialWriter writer(store, {.interval = run.store_interval, .on_stored = run.on_stored});
-  const auto pictured = [&run](TrialKey key) { return run.pictures && key.trial == 0; };
-  const RunOptions options{.jobs = run.jobs,
-                           .keep_artifacts = pictured,
-                           .stop = stop,
-                           .detectors = run.detectors,
-                           .make_runner = run.make_runner};
-  RunTrials(run.study, cells, batch, options, [&](const FinishedTrial& trial) {
-    // Before the rows: a trial that is stored is not run again.
-    if (pictured(trial.key())) WritePictures(PictureFolder(run.out, trial.runner.cell()), trial);
-    writer.Add(trial.Records());
-  });
-  writer.Finish();
-}
+// Adds what is missing to a store.
+class StoreFiller {
+ public:
+  StoreFiller(const StudyRun& run, std::span<const Cell> cells, const OutputPath& out,
+              ResultStore& store)
+      : run_(run), cells_(cells), out_(out), store_(store) {}
 
-// Runs what is missing, and what turns out to be missing then. Returns whether all is there.
-bool RunMissing(const StudyRun& run, std::span<const Cell> cells, std::vector<TrialKey> missing,
-                ResultStore& store) {
-  if (missing.empty()) return true;
-  const int64_t entry = store.AddRun({.shard = run.shard.ToString(),
-                                      .started_utc = UtcNow(),
-                                      .ended_utc = std::nullopt,
-                                      .jobs = run.jobs,
-                                      .host = HostName(),
-                                      .processor = Processor(),
-                                      .command = run.command});
-  std::atomic<bool> stopped = false;  // Told once, and still so when the batch has ended.
-  const auto stop = [&run, &stopped] {
-    if (run.stop()) stopped = true;
-    return stopped.load();
-  };
-  while (!missing.empty() && !stopped) {
-    RunBatch(run, cells, missing, stop, store);
-    missing = Missing(run, cells, store);
+  // Runs these trials, and those that turn out to be missing then (of all that are `wanted`).
+  // Returns whether all is there.
+  bool Run(std::vector<TrialKey> missing, std::span<const TrialKey> wanted) {
+    if (missing.empty()) return true;
+    const int64_t entry = store_.AddRun({.shard = run_.shard.ToString(),
+                                         .started_utc = UtcNow(),
+                                         .ended_utc = std::nullopt,
+                                         .jobs = run_.jobs,
+                                         .host = HostName(),
+                                         .processor = Processor(),
+                                         .command = run_.command});
+    while (!missing.empty() && !stopped_) {
+      RunBatch(missing);
+      missing = MissingTrials(run_.study, cells_, wanted, store_, run_.out);
+    }
+    store_.SetRunEnd(entry, UtcNow());
+    return missing.empty();
   }
-  store.SetRunEnd(entry, UtcNow());
-  return missing.empty();
-}
+
+ private:
+  void RunBatch(std::span<const TrialKey> batch) {
+    TrialWriter writer(store_, {.interval = run_.store_interval, .on_stored = run_.on_stored});
+    const auto pictured = [this](TrialKey key) { return run_.pictures && key.trial == 0; };
+    const auto stop = [this] {
+      if (run_.stop()) stopped_ = true;
+      return stopped_.load();
+    };
+    const RunOptions options{.jobs = run_.jobs,
+                             .keep_artifacts = pictured,
+                             .stop = stop,
+                             .detectors = run_.detectors,
+                             .make_runner = run_.make_runner};
+    RunTrials(run_.study, cells_, batch, options, [&](const FinishedTrial& trial) {
+      // Before the rows: a trial that is stored is not run again.
+      if (pictured(trial.key())) WritePictures(PictureFolder(out_, trial.runner.cell()), trial);
+      writer.Add(trial.Records());
+    });
+    writer.Finish();
+  }
+
+  const StudyRun& run_;
+  std::span<const Cell> cells_;
+  const OutputPath& out_;
+  ResultStore& store_;
+  std::atomic<bool> stopped_ = false;  // Told once, and still so when a batch has ended.
+};
 
 }  // namespace
 
@@ -146,12 +133,13 @@ StudyResult RunStudy(const StudyRun& run) {
   CheckShard(run);
   run.detectors->Start(run.study);
   const FolderLock lock(run.out);
+  const OutputPath out = ResultsFolder(run.out);
 
   RunStart start{.trials = static_cast<int64_t>(trials.size()), .stored = 0, .tallies = {}};
   std::optional<ResultStore> store = OpenEarlier(run, file);
   std::vector<TrialKey> missing;
   if (store) {
-    missing = Missing(run, cells, *store);
+    missing = MissingTrials(run.study, cells, trials, *store, file);
     start.stored = static_cast<int64_t>(store->FinishedTrials().size());
     start.tallies = store->Tallies();
   }
@@ -166,14 +154,14 @@ StudyResult RunStudy(const StudyRun& run) {
   }
   run.on_start(start);
   if (!store) {
-    store = StartAfresh(run, file);
-    missing = Missing(run, cells, *store);
+    store = StartAfresh(run, out);
+    missing = MissingTrials(run.study, cells, trials, *store, file);
   }
-  const bool complete = RunMissing(run, cells, std::move(missing), *store);
+  const bool complete = StoreFiller(run, cells, out, *store).Run(std::move(missing), trials);
   result.stored = static_cast<int64_t>(store->FinishedTrials().size());
   if (!complete) return result;
   result.trials = result.stored;  // A study that stops by itself knows its trials only now.
-  result.summaries = WriteResultFiles(*store, run.study, cells, run.out);
+  result.summaries = WriteResultFiles(*store, run.study, cells, out);
   return result;
 }
 

@@ -149,12 +149,17 @@ void JoinStores(const std::vector<ShardResult>& shards, const fs::path& file) {
   fs::rename(growing, file);
 }
 
-void CopyPictures(const std::vector<ShardResult>& shards, const fs::path& out) {
+void CopyPictures(const std::vector<ShardResult>& shards, const OutputPath& out) {
   for (const ShardResult& shard : shards) {
     const fs::path pictures = shard.file.parent_path() / "pictures";
     if (!fs::is_directory(pictures)) continue;
-    fs::copy(pictures, out / "pictures",
-             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    for (const auto& entry : fs::recursive_directory_iterator(pictures)) {
+      if (!entry.is_regular_file()) continue;
+      WriteFileAtomically(out / "pictures" / entry.path().lexically_relative(pictures),
+                          [&entry](std::ostream& to) {
+                            to << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+                          });
+    }
   }
 }
 
@@ -223,6 +228,7 @@ std::vector<CellSummary> MergeShards(const Merge& merge) {
   const std::vector<Cell> cells = Cells(study);
   CheckTrials(shards, AllTrials(cells));
   const FolderLock lock(merge.out);
+  const OutputPath out = ResultsFolder(merge.out);
   const fs::path file = merge.out / ResultStore::kFileName;
   for (const ShardResult& shard : shards) {
     if (fs::exists(file) && fs::equivalent(file, shard.file)) {
@@ -232,12 +238,12 @@ std::vector<CellSummary> MergeShards(const Merge& merge) {
   if (!merge.restart) CheckMayReplace(file, shards.front());
   try {
     JoinStores(shards, file);
-    RemoveResultFiles(merge.out);
-    CopyPictures(shards, merge.out);
+    RemoveResultFiles(out);
+    CopyPictures(shards, out);
   } catch (const fs::filesystem_error& error) {
     throw InputError(merge.out, error.what());
   }
-  return WriteResultFiles(ResultStore::OpenReadOnly(file), study, cells, merge.out);
+  return WriteResultFiles(ResultStore::OpenReadOnly(file), study, cells, out);
 }
 
 std::string SlurmArrayScript(const SlurmSubmission& submission) {

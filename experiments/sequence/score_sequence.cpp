@@ -12,6 +12,7 @@
 #include "core/system/program.h"
 #include "experiments/analysis/cell_tally.h"
 #include "experiments/report/report.h"
+#include "experiments/run/result_files.h"
 #include "experiments/run/run_identity.h"
 #include "experiments/store/store.h"
 #include "experiments/trial/scoring.h"
@@ -87,6 +88,19 @@ StoreMetadata MetadataOf(const SequenceRun& run) {
           {"processor", Processor()}};
 }
 
+// A result that this sequence has not given stays.
+void CheckMayReplace(const SequenceRun& run) {
+  const std::filesystem::path file = run.out / ResultStore::kFileName;
+  if (!std::filesystem::exists(file)) return;
+  const StoreMetadata there = ResultStore::OpenReadOnly(file).Metadata();
+  const auto sequence = there.find("sequence");
+  if (sequence != there.end() && sequence->second == run.sequence.text) return;
+  throw InputError(file,
+                   fmt::format("holds another result, of the {} '{}'. Choose another --out, "
+                               "or replace it with --restart",
+                               sequence == there.end() ? "study" : "sequence", there.at("name")));
+}
+
 // Of the targets, by cell and trial.
 std::map<std::pair<int, int>, double> SidesOf(const Sequence& sequence) {
   std::map<std::pair<int, int>, double> sides_m;
@@ -99,7 +113,7 @@ std::map<std::pair<int, int>, double> SidesOf(const Sequence& sequence) {
 }
 
 void WriteReports(const SequenceRun& run, const std::vector<TrialRecord>& records,
-                  const std::vector<CellSummary>& summaries) {
+                  const std::vector<CellSummary>& summaries, const OutputPath& out) {
   const ReportTitle title{
       .study = run.sequence.name,
       .description = run.sequence.description,
@@ -107,9 +121,9 @@ void WriteReports(const SequenceRun& run, const std::vector<TrialRecord>& record
                      {"Fenestra", Version()},
                      {"Libraries", LibraryVersions()},
                      {"Processor", Processor()}}};
-  WriteFileAtomically(run.out / "trials.csv", TrialsCsv(records));
-  WriteFileAtomically(run.out / "summary.csv", SummaryCsv(summaries));
-  WriteFileAtomically(run.out / "summary.md", SummaryMarkdown(title, summaries));
+  WriteFileAtomically(out / "trials.csv", TrialsCsv(records));
+  WriteFileAtomically(out / "summary.csv", SummaryCsv(summaries));
+  WriteFileAtomically(out / "summary.md", SummaryMarkdown(title, summaries));
 }
 
 }  // namespace
@@ -140,13 +154,17 @@ MadeDetections ReadDetections(const std::string& label, const std::filesystem::p
 }
 
 std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
+  const FolderLock lock(run.out);
+  const OutputPath out = ResultsFolder(run.out);
+  if (!run.restart) CheckMayReplace(run);
   const auto trials = TryAll(run);
   ResultStore store = ResultStore::Create(run.out / ResultStore::kFileName, MetadataOf(run),
                                           ResultStore::IfExists::kReplace);
+  RemoveResultFiles(out);
   for (const auto& rows : trials) store.AddTrial(rows);
   const std::vector<TrialRecord> records = store.Rows();
   std::vector<CellSummary> summaries = Summarise(records, RowContext(SidesOf(run.sequence)));
-  WriteReports(run, records, summaries);
+  WriteReports(run, records, summaries, out);
   return summaries;
 }
 

@@ -30,11 +30,13 @@ struct SequenceRun {
   Sequence sequence;
   std::vector<MadeDetections> made;
   std::filesystem::path out;
+  bool restart = false;  ///< Replaces another result that is there.
   std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
 };
 
 /// Scores every image under every detector; the rows have the cells and trials that the sequence
-/// gives. Throws InputError for a file that cannot be read; nothing is written then.
+/// gives. Throws InputError for a file that cannot be read, and where another process writes into
+/// the folder or it holds the result of a study or of another sequence; nothing is written then.
 std::vector<CellSummary> ScoreSequence(const SequenceRun& run);
 
 }  // namespace fenestra

@@ -43,7 +43,7 @@ std::string ToYaml(const Sequence& sequence) {
                      YamlQuoted(sequence.description), ToString(sequence.sensor), frames);
 }
 
-int WriteSequence(const std::filesystem::path& folder, const Study& study, SensorKind sensor) {
+int WriteSequence(const OutputPath& folder, const Study& study, SensorKind sensor) {
   Sequence sequence{.name = study.name,
                     .description = study.description,
                     .sensor = sensor,

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/io/output_path.h"
 #include "experiments/sequence/sequence.h"
 #include "experiments/study/study.h"
 
@@ -16,6 +17,6 @@ std::string ToYaml(const Sequence& sequence);
 /// sequence.yaml (see sequence.h) and, for each trial, a folder with what a detector gets. Scoring
 /// it gives the rows of the study. Returns the number of frames. Throws InputError if no cell has
 /// that sensor.
-int WriteSequence(const std::filesystem::path& folder, const Study& study, SensorKind sensor);
+int WriteSequence(const OutputPath& folder, const Study& study, SensorKind sensor);
 
 }  // namespace fenestra

@@ -1,29 +1,20 @@
 #include "experiments/trial/calibration_cache.h"
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
 
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
+#include "core/io/sha256.h"
 #include "core/io/temporary_files.h"
 #include "core/system/check.h"
 #include "core/system/program.h"
 
 namespace fenestra {
 namespace {
-
-std::string Sha256(const std::string& text) {
-  std::array<unsigned char, 32> digest{};
-  FENESTRA_CHECK(
-      EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) == 1,
-      "libcrypto has no SHA-256");
-  return fmt::format("{:02x}", fmt::join(digest, ""));
-}
 
 constexpr char kSum[] = "# sha256 ";
 
@@ -86,7 +77,7 @@ CalibrationWithCovariance CalibrationCache::Get(
   const std::string key = Sha256("build " + BuildId() + "\n" + content);
   const std::filesystem::path file = *folder_ / ("calibration-" + key + ".yaml");
   if (const auto known = Read(file)) return *known;
-  const CalibrationWithCovariance computed = compute();
+  CalibrationWithCovariance computed = compute();
   try {
     WriteFileAtomically(file, Sealed(ToText(computed)));
   } catch (const InputError&) {

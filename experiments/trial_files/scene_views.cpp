@@ -89,8 +89,8 @@ cv::Mat Picture(const cv::Mat& radiance) {
   return picture;
 }
 
-void WriteView(const std::filesystem::path& folder, const RayCaster& caster,
-               const SceneCamera& camera, const Lighting& lighting) {
+void WriteView(const OutputPath& folder, const RayCaster& caster, const SceneCamera& camera,
+               const Lighting& lighting) {
   const RayGrid rays(camera.model);
   const auto render = [&](Band band) -> cv::Mat {
     return caster.Render(rays, camera.X_WC, lighting, {.band = band}, RandomStream(0));
@@ -158,7 +158,7 @@ std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOption
                                            DidYouMean(*options.camera, names)));
 }
 
-void WriteSceneViews(const std::filesystem::path& folder, const GltfScene& world,
+void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
                      const SceneViewOptions& options) {
   const std::vector<SceneCamera> cameras = CamerasOf(world, options);
   const RayCaster caster(Tessellated(world.scene, EdgeForTriangles(world.scene, kTriangles)));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/io/output_path.h"
 #include "experiments/study/trial_settings.h"
 #include "scenes/gltf/gltf.h"
 
@@ -34,7 +35,7 @@ std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOption
 ///     truth.json    pose and windows
 ///
 /// Surfaces that are not closed are tessellated first, as light is known at vertices.
-void WriteSceneViews(const std::filesystem::path& folder, const GltfScene& world,
+void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
                      const SceneViewOptions& options);
 
 }  // namespace fenestra

@@ -60,7 +60,7 @@ std::string FactorYaml(const TrialSettings& settings) {
 
 }  // namespace
 
-void WritePictures(const std::filesystem::path& folder, const Observation& observation,
+void WritePictures(const OutputPath& folder, const Observation& observation,
                    const SensorCalibration& calibration, const GroundTruth* truth,
                    const WindowEstimate* estimate, const StageLog& log) {
   const auto write = [&](const std::string& name, const cv::Mat& image,
@@ -85,7 +85,7 @@ void WritePictures(const std::filesystem::path& folder, const Observation& obser
   }
 }
 
-void WritePictures(const std::filesystem::path& folder, const FinishedTrial& trial) {
+void WritePictures(const OutputPath& folder, const FinishedTrial& trial) {
   for (const Attempt& attempt : trial.attempts) {
     const auto& estimate = attempt.record.score.estimate;
     WritePictures(folder / attempt.record.detector, trial.simulated.observation,
@@ -94,7 +94,7 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
   }
 }
 
-void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedTrial& simulated) {
+void WriteObservationFiles(const OutputPath& folder, const SimulatedTrial& simulated) {
   WriteObservation(folder, simulated.observation, simulated.calibration);
   if (const auto* rgbd = std::get_if<RgbdObservation>(&simulated.observation)) {
     const CameraModel& camera = ScoredCamera(simulated.calibration);
@@ -102,7 +102,7 @@ void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedT
   }
 }
 
-void WriteTruthFiles(const std::filesystem::path& folder, const TrialRunner& runner,
+void WriteTruthFiles(const OutputPath& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated) {
   const TruthImages images = runner.TruthOf(simulated);
   const SensorCalibration sensor = runner.SensorOf(simulated).cameras;
@@ -129,7 +129,7 @@ void WriteTruthFiles(const std::filesystem::path& folder, const TrialRunner& run
   WriteFileAtomically(folder / "trial.yaml", FactorYaml(simulated.trial.settings));
 }
 
-void WriteTrialFiles(const std::filesystem::path& folder, const TrialRunner& runner,
+void WriteTrialFiles(const OutputPath& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated) {
   WriteObservationFiles(folder, simulated);
   WriteTruthFiles(folder / "truth", runner, simulated);

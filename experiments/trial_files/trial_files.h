@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "core/io/output_path.h"
 #include "experiments/trial/trial_runner.h"
 
 namespace fenestra {
@@ -14,12 +15,12 @@ namespace fenestra {
 ///     left.png, right.png                          (stereo)
 ///     color.png, depth.png (false colours)         (RGB-D)
 ///     1_<picture>.png, ..., <cloud>.pcd
-void WritePictures(const std::filesystem::path& folder, const Observation& observation,
+void WritePictures(const OutputPath& folder, const Observation& observation,
                    const SensorCalibration& calibration, const GroundTruth* truth,
                    const WindowEstimate* estimate, const StageLog& log);
 
 /// Writes a trial's pictures under every detector, each in a folder of its name.
-void WritePictures(const std::filesystem::path& folder, const FinishedTrial& trial);
+void WritePictures(const OutputPath& folder, const FinishedTrial& trial);
 
 /// Writes one observation as a detector gets it, the files that `fenestra detect` reads:
 ///
@@ -35,12 +36,12 @@ void WritePictures(const std::filesystem::path& folder, const FinishedTrial& tri
 ///     no_return.png     why depth pixels have no return (RGB-D)
 ///     infrared.png      what the infra-red camera sees (RGB-D by matching)
 ///     trial.yaml        every factor's value in this trial
-void WriteTrialFiles(const std::filesystem::path& folder, const TrialRunner& runner,
+void WriteTrialFiles(const OutputPath& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated);
 
 /// Write the first and the second half of these files, each into a folder of its own.
-void WriteObservationFiles(const std::filesystem::path& folder, const SimulatedTrial& simulated);
-void WriteTruthFiles(const std::filesystem::path& folder, const TrialRunner& runner,
+void WriteObservationFiles(const OutputPath& folder, const SimulatedTrial& simulated);
+void WriteTruthFiles(const OutputPath& folder, const TrialRunner& runner,
                      const SimulatedTrial& simulated);
 
 }  // namespace fenestra

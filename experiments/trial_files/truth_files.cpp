@@ -201,8 +201,7 @@ std::map<std::string, std::string> CameraMetadata(const CameraModel& camera, con
       {"disparity", "U, V [px]: this pixel minus its match; NaN: none"}};
 }
 
-void WriteTruthExr(const std::filesystem::path& file, const TruthImages& truth,
-                   const std::string& point) {
+void WriteTruthExr(const OutputPath& file, const TruthImages& truth, const std::string& point) {
   std::vector<ExrChannel> channels = AovChannels(truth.aovs, point);
   for (ExrChannel& channel : RadianceChannels(truth.radiance, truth.band)) {
     channels.push_back(std::move(channel));

@@ -8,6 +8,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
+#include "core/io/output_path.h"
 #include "renderers/exr_io.h"
 #include "sim/truth/ground_truth.h"
 
@@ -61,7 +62,6 @@ std::vector<ExrChannel> RadianceChannels(const cv::Mat& radiance, Band band);
 std::map<std::string, std::string> CameraMetadata(const CameraModel& camera, const Pose& X_WC);
 
 /// All of it; `point` names what TruthImages::aovs' sees_point is: "right" or "projector".
-void WriteTruthExr(const std::filesystem::path& file, const TruthImages& truth,
-                   const std::string& point);
+void WriteTruthExr(const OutputPath& file, const TruthImages& truth, const std::string& point);
 
 }  // namespace fenestra

@@ -49,7 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     store.Tallies();
     store.Runs();
     const fenestra::Study study = fenestra::StudyOf(store, folder / "results.sqlite");
-    fenestra::WriteResultFiles(store, study, fenestra::Cells(study), folder);
+    fenestra::WriteResultFiles(store, study, fenestra::Cells(study),
+                               fenestra::OutputPath::Folder(folder));
   } catch (const fenestra::InputError&) {
   }
   return 0;

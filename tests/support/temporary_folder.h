@@ -15,7 +15,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  /// Writes a file into the folder and returns its path.
+  /// Writes a file into the folder, or a new one below it, and returns its path.
   std::filesystem::path Write(const std::string& name, const std::string& text) const;
   bool IsEmpty() const { return std::filesystem::is_empty(path_); }
 

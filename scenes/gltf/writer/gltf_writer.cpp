@@ -36,10 +36,10 @@ tinygltf::Model ToModel(const GltfScene& gltf) {
 
 }  // namespace
 
-void WriteGltf(const std::filesystem::path& file, const GltfScene& scene) {
-  const std::string extension = file.extension().string();
+void WriteGltf(const OutputPath& file, const GltfScene& scene) {
+  const std::string extension = file.path().extension().string();
   if (extension != ".gltf" && extension != ".glb") {
-    throw InputError(file,
+    throw InputError(file.path(),
                      fmt::format("a scene is written as .gltf or .glb, not as '{}'", extension));
   }
   Validate(scene.scene);
@@ -47,7 +47,7 @@ void WriteGltf(const std::filesystem::path& file, const GltfScene& scene) {
   // The lengths in a .glb have 32 bits; the JSON around the data is small.
   constexpr size_t kMostBytes = std::numeric_limits<uint32_t>::max() - (size_t{64} << 20);
   if (!model.buffers.empty() && model.buffers[0].data.size() > kMostBytes) {
-    throw InputError(file, "the scene has more data than a glTF file can hold");
+    throw InputError(file.path(), "the scene has more data than a glTF file can hold");
   }
   std::ostringstream stream;
   const bool is_binary = extension == ".glb";

@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "tests/experiments/run/mock_study.h"
 #include "tests/support/temporary_folder.h"
@@ -25,8 +26,9 @@ using testing::TemporaryFolder;
 std::map<std::string, std::string> TextsIn(const fs::path& folder) {
   std::map<std::string, std::string> texts;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().extension() != ".sqlite") {
-      texts[entry.path().filename()] = ReadFile(entry.path());
+    const std::string name = entry.path().filename();
+    if (entry.is_regular_file() && !name.starts_with(".") && !name.ends_with(".sqlite")) {
+      texts[name] = ReadFile(entry.path());
     }
   }
   return texts;
@@ -51,7 +53,7 @@ TEST_F(ResultFiles, FollowFromTheStoreAlone) {
   }
   const TemporaryFolder other;
   const Study study = MockStudy(5);
-  WriteResultFiles(Opened(folder_.path()), study, Cells(study), other.path());
+  WriteResultFiles(Opened(folder_.path()), study, Cells(study), OutputPath::Folder(other.path()));
   for (const auto& [name, text] : TextsIn(other.path())) {
     ASSERT_TRUE(before.contains(name)) << name;
     EXPECT_EQ(text, before.at(name)) << name;
@@ -63,14 +65,15 @@ TEST_F(ResultFiles, AreAllThereOrAreNot) {
   fs::remove(folder_ / "summary.md");
   EXPECT_FALSE(HasResultFiles(folder_.path()));
   const Study study = MockStudy(5);
-  WriteResultFiles(Opened(folder_.path()), study, Cells(study), folder_.path());
+  WriteResultFiles(Opened(folder_.path()), study, Cells(study), ResultsFolder(folder_.path()));
   EXPECT_TRUE(HasResultFiles(folder_.path()));
 }
 
 TEST_F(ResultFiles, AreRemovedWithThePicturesAndNothingElse) {
   folder_.Write("notes.txt", "mine");
-  fs::create_directories(folder_ / "pictures/cell_000_main_stereo");
-  RemoveResultFiles(folder_.path());
+  WritePng(ResultsFolder(folder_.path()) / "pictures/cell_000_main_stereo/left.png",
+           cv::Mat1b::zeros(2, 2));
+  RemoveResultFiles(ResultsFolder(folder_.path()));
   EXPECT_FALSE(HasResultFiles(folder_.path()));
   EXPECT_FALSE(fs::exists(folder_ / "pictures"));
   EXPECT_TRUE(fs::exists(folder_ / "notes.txt"));
@@ -116,7 +119,8 @@ TEST(ResultFilesOf, AFolderHoldsItsStoreAndAFileIsOne) {
 
 TEST(ResultFilesOf, PicturesOfEachCellHaveAFolder) {
   const Cell cell = CellOf(MockStudy(5), 1);
-  EXPECT_EQ(PictureFolder("out", cell), fs::path("out/pictures/cell_001_main_stereo"));
+  EXPECT_EQ(PictureFolder(fs::path("out"), cell).path(),
+            fs::path("out/pictures/cell_001_main_stereo"));
 }
 
 }  // namespace
