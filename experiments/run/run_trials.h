@@ -23,7 +23,8 @@ struct RunOptions {
   int jobs = 1;  ///< Trials that run at the same time, at least 1.
   /// Whether detectors shall keep their pictures and clouds in this trial.
   std::function<bool(TrialKey)> keep_artifacts = [](TrialKey) { return false; };
-  /// Asked before each trial; true ends the run when the trials that run have finished.
+  /// Asked before each trial, by several threads at once; true ends the run when the trials that
+  /// run have finished.
   std::function<bool()> stop = [] { return false; };
   std::shared_ptr<DetectorMaker> detectors = std::make_shared<DetectorMaker>();
   RunnerMaker make_runner = {};  ///< Empty: CellRunner, whose detectors `detectors` makes.

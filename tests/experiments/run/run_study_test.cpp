@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <set>
 #include <thread>
@@ -63,7 +64,7 @@ TEST(RunStudyTest, ARunThatWasStoppedGoesOnAndGivesTheRowsOfOneThatWasNot) {
   RunStudy(MockRun(study, folder / "whole"));
   StudyRun run = MockRun(study, folder / "parts");
   int64_t stored = 0;
-  int calls = 0;
+  std::atomic<int> calls = 0;  // Both jobs ask.
   for (int part = 0; part < 3; ++part) {
     run.stop = [&calls] { return ++calls % 20 == 0; };
     const StudyResult result = RunStudy(run);
