@@ -87,11 +87,10 @@ LimitResult RegressionResult(const std::string& text, const PairedTests& tests, 
   result.note = tests.changed == 0 ? "the same in every trial"
                                    : fmt::format("p = {:.2g}, {} of {} trials changed", p,
                                                  tests.changed, tests.pairs);
+  const bool is_unchanged = tests.pairs > 0 && tests.changed == 0;
   if (p <= level) {
     result.verdict = Verdict::kViolated;
-  } else if (tests.pairs > 0 && tests.changed == 0) {
-    result.verdict = Verdict::kHolds;
-  } else if (estimation && estimation->limits.Holds(kRegressionConfidence)) {
+  } else if (is_unchanged || (estimation && estimation->limits.Holds(kRegressionConfidence))) {
     result.verdict = Verdict::kHolds;
   } else if (estimation) {
     result.replicates_to_decide =
