@@ -196,12 +196,13 @@ FENESTRA_OPTION_OF(std::vector<std::string>);
 FENESTRA_OPTION_OF(std::vector<std::filesystem::path>);
 #undef FENESTRA_OPTION_OF
 
-// NOLINTNEXTLINE(bugprone-macro-parentheses): a type cannot stand in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses): a type cannot stand in parentheses.
 #define FENESTRA_CHOICE_OF(Value, Choice)                        \
   template Option Command::AddChoice(const std::string&, Value&, \
                                      const std::map<std::string, Choice>&, const std::string&)
 FENESTRA_CHOICE_OF(Sky::Model, Sky::Model);
 FENESTRA_CHOICE_OF(std::optional<SensorKind>, SensorKind);
 #undef FENESTRA_CHOICE_OF
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace fenestra::cli

@@ -17,7 +17,7 @@ std::string Share(double value, const Interval& interval) {
 
 // A length with its interval, in mm.
 std::string Length(double value_m, const std::optional<Interval>& interval_m) {
-  const std::string value = Significant(1e3 * value_m);
+  std::string value = Significant(1e3 * value_m);
   if (!interval_m) return value;
   return fmt::format("{} ({} to {})", value, Significant(1e3 * interval_m->lower),
                      Significant(1e3 * interval_m->upper));

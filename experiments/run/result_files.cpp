@@ -125,7 +125,7 @@ bool HasResultFiles(const fs::path& folder) {
 }
 
 OutputPath ResultsFolder(const fs::path& folder) {
-  const OutputPath results = OutputPath::Folder(folder);
+  OutputPath results = OutputPath::Folder(folder);
   if (!results.HasRecord() && fs::exists(folder / ResultStore::kFileName)) {
     ResultStore::OpenReadOnly(folder / ResultStore::kFileName);  // Throws if it is none.
     results.Adopt(ResultFileNames());
