@@ -55,6 +55,11 @@ class OutputPath::Record {
     Add(file, sha256);
   }
 
+  void Start() {
+    const std::scoped_lock lock(mutex_);
+    Append("");
+  }
+
   void Adopt(const fs::path& file) {
     const std::scoped_lock lock(mutex_);
     if (fs::is_regular_file(file)) Add(file, Sha256OfFile(file));
@@ -75,11 +80,15 @@ class OutputPath::Record {
 
   void Add(const fs::path& file, const std::string& sha256) {
     if (!written_.emplace(NameOf(file), sha256).second) return;
+    Append(fmt::format("{}  {}\n", sha256, NameOf(file)));
+  }
+
+  // In one write, so that lines of several processes do not mix.
+  void Append(const std::string& lines) {
     std::error_code error;
     fs::create_directories(folder_, error);
     std::ofstream stream(file_, std::ios::app);
-    // One write, so that lines of several processes do not mix.
-    stream << fmt::format("{}  {}\n", sha256, NameOf(file)) << std::flush;
+    stream << lines << std::flush;
     if (!stream) throw InputError(file_, "cannot be written");
   }
 
@@ -127,6 +136,10 @@ void OutputPath::Adopt(const std::vector<std::string>& names) const {
   for (const std::string& name : names) {
     for (const fs::path& place : Below(path_ / name)) record_->Adopt(place);
   }
+}
+
+void OutputPath::StartRecord() const {
+  record_->Start();
 }
 
 bool OutputPath::HasRecord() const {

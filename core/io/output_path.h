@@ -37,6 +37,9 @@ class OutputPath {
   /// Whether what is written here is recorded, and whether anything has been.
   bool IsRecorded() const { return record_ != nullptr; }
   bool HasRecord() const;
+  /// Makes the record, if there is none: what appears in the folder from now on without being
+  /// recorded is somebody else's.
+  void StartRecord() const;
 
   /// Removes the program's own files of these names below this folder, all that are in a folder of
   /// such a name, and folders that are empty then.

@@ -55,10 +55,14 @@ std::vector<std::string> TextFileNames() {
   return names;
 }
 
-// The pictures, too.
-std::vector<std::string> ResultFileNames() {
+// Of results without a record: the text files, and the folders that pictures of cells have.
+std::vector<std::string> NamesToAdopt(const fs::path& folder) {
   std::vector<std::string> names = TextFileNames();
-  names.push_back("pictures");
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder / "pictures", none)) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with("cell_")) names.push_back("pictures/" + name);
+  }
   return names;
 }
 
@@ -128,14 +132,15 @@ OutputPath ResultsFolder(const fs::path& folder) {
   OutputPath results = OutputPath::Folder(folder);
   if (!results.HasRecord() && fs::exists(folder / ResultStore::kFileName)) {
     ResultStore::OpenReadOnly(folder / ResultStore::kFileName);  // Throws if it is none.
-    results.Adopt(ResultFileNames());
+    results.Adopt(NamesToAdopt(folder));
   }
   results.RequireFree(TextFileNames());
   return results;
 }
 
 void RemoveResultFiles(const OutputPath& folder) {
-  folder.RemoveOwn(ResultFileNames());
+  folder.RemoveOwn(TextFileNames());
+  folder.RemoveOwn({"pictures"});
 }
 
 OutputPath PictureFolder(const OutputPath& folder, const Cell& cell) {

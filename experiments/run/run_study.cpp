@@ -58,6 +58,7 @@ std::optional<ResultStore> OpenEarlier(const StudyRun& run, const std::filesyste
 
 ResultStore StartAfresh(const StudyRun& run, const OutputPath& out) {
   const std::filesystem::path file = out.path() / ResultStore::kFileName;
+  out.StartRecord();
   ResultStore store = ResultStore::Create(file, MetadataOf(run), ResultStore::IfExists::kReplace);
   RemoveResultFiles(out);
   return store;

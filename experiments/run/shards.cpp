@@ -238,6 +238,7 @@ std::vector<CellSummary> MergeShards(const Merge& merge) {
   }
   if (!merge.restart) CheckMayReplace(file, shards.front());
   try {
+    out.StartRecord();
     JoinStores(shards, file);
     RemoveResultFiles(out);
     CopyPictures(shards, out);

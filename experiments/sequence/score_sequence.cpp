@@ -158,6 +158,7 @@ std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
   const OutputPath out = ResultsFolder(run.out);
   if (!run.restart) CheckMayReplace(run);
   const auto trials = TryAll(run);
+  out.StartRecord();
   ResultStore store = ResultStore::Create(run.out / ResultStore::kFileName, MetadataOf(run),
                                           ResultStore::IfExists::kReplace);
   RemoveResultFiles(out);

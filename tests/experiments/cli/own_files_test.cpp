@@ -159,6 +159,7 @@ TEST(ResultsFolderTest, AnEditedReportStaysAndOneOfAnEarlierVersionIsReplaced) {
   const std::string out = (folder / "out").string();
   ASSERT_EQ(Fenestra("run " + study + " --out " + out).exit_code, 0);
   fs::remove(folder / "out/.fenestra");
+  folder.Write("out/pictures/IMG_0001.jpg", "a holiday");
   EXPECT_EQ(Fenestra("report " + out).exit_code, 0);
   folder.Write("out/summary.md", "my conclusions");
   for (const std::string& command : {"report " + out, "run " + study + " --restart --out " + out}) {
@@ -168,6 +169,9 @@ TEST(ResultsFolderTest, AnEditedReportStaysAndOneOfAnEarlierVersionIsReplaced) {
     EXPECT_EQ(ReadFile(folder / "out/summary.md"), "my conclusions");
     EXPECT_TRUE(fs::exists(folder / "out/trials.csv"));
   }
+  fs::remove(folder / "out/summary.md");
+  EXPECT_EQ(Fenestra("run " + study + " --restart --out " + out).exit_code, 0);
+  EXPECT_EQ(ReadFile(folder / "out/pictures/IMG_0001.jpg"), "a holiday");
 }
 
 TEST(ResultsFolderTest, ScoresDoNotReplaceAStudyOrAnotherSequence) {
