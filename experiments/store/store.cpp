@@ -3,14 +3,17 @@
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <SQLiteCpp/VariadicBind.h>
 #include <fmt/format.h>
+#include <sqlite3.h>
 
 #include <array>
-#include <fstream>
 #include <mutex>
 
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
+#include "core/io/system_error.h"
 #include "core/io/temporary_files.h"
 #include "core/system/check.h"
+#include "experiments/store/lock_wait.h"
 #include "experiments/store/store_rows.h"
 
 namespace fenestra {
@@ -28,9 +31,8 @@ uint32_t BigEndian(std::span<const unsigned char, 4> bytes) {
 /// Reads the header by hand, before SQLite gets to touch a file that may not be ours.
 /// Source of the offsets: "SQLite database file format", section 1.3.
 void CheckHeader(const fs::path& file) {
-  if (!fs::is_regular_file(file)) throw InputError(file, "there is no such file");
   std::array<char, 100> text{};
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = OpenInput(file);
   stream.read(text.data(), text.size());
   std::array<unsigned char, 100> header{};
   std::copy(text.begin(), text.end(), header.begin());
@@ -47,21 +49,31 @@ void CheckHeader(const fs::path& file) {
   }
 }
 
-/// What `use` returns. An error of SQLite becomes an InputError that names the file.
+/// Whether it is the machine that failed, and not the file.
+bool IsOfMachine(int code) {
+  return code == SQLITE_FULL || code == SQLITE_IOERR || code == SQLITE_NOMEM || code == SQLITE_BUSY;
+}
+
+/// What `use` returns. An error of SQLite becomes an InputError or a SystemError that names the
+/// file.
 template <typename Use>
 auto NamingFile(const fs::path& file, const Use& use) {
   try {
     return use();
   } catch (const SQLite::Exception& error) {
-    throw InputError(file,
-                     fmt::format("SQLite says: {} (code {})", error.what(), error.getErrorCode()));
+    const int code = error.getErrorCode();
+    std::string message = fmt::format("SQLite says: {} (code {})", error.what(), code);
+    if (code == SQLITE_BUSY) message += fmt::format("; it is locked by {}", LockHolders(file));
+    if (IsOfMachine(code)) throw SystemError(file, message);
+    throw InputError(file, message);
   }
 }
 
 SQLite::Database OpenDatabase(const fs::path& file, int flags) {
-  constexpr int kBusyTimeout_ms = 60'000;  // Readers may hold the file while they read.
   // An absolute path, since SQLite gives names such as ":memory:" a meaning of their own.
-  return {fs::absolute(file).string(), flags | SQLite::OPEN_NOMUTEX, kBusyTimeout_ms};
+  SQLite::Database database(fs::absolute(file).string(), flags | SQLite::OPEN_NOMUTEX);
+  WaitForLocks(database.getHandle());
+  return database;
 }
 
 /// Throws InputError unless the file is a sound store.
@@ -147,7 +159,7 @@ ResultStore ResultStore::Create(const fs::path& file, const StoreMetadata& metad
   }
   std::error_code error;
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
-  if (error) throw InputError(file, "its folder cannot be made: " + error.message());
+  if (error) ThrowSystemFault(file, "its folder cannot be made", error.value());
   const fs::path temporary = TemporaryBeside(file);
   try {
     NamingFile(temporary, [&] { WriteEmptyStore(temporary, metadata); });
@@ -158,7 +170,9 @@ ResultStore ResultStore::Create(const fs::path& file, const StoreMetadata& metad
   } catch (const std::exception& exception) {
     fs::remove(temporary, error);
     fs::remove(JournalOf(temporary), error);
-    throw InputError(file, fmt::format("cannot be made: {}", exception.what()));
+    const std::string message = fmt::format("cannot be made: {}", exception.what());
+    if (dynamic_cast<const SystemError*>(&exception) != nullptr) throw SystemError(file, message);
+    throw InputError(file, message);
   }
   return Connection::Open(file, SQLite::OPEN_READWRITE);
 }

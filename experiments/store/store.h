@@ -28,9 +28,10 @@ namespace fenestra {
 /// EXTRA: the same holds after a power failure. A transaction costs some milliseconds on a disk,
 /// which is why TrialWriter gathers trials.
 ///
-/// One process writes; any number may read, during the run, too. All members are thread-safe.
-/// Errors: InputError for a file that is missing, damaged, of another program or version, or that
-/// cannot be written; the file is then as it was.
+/// One process writes; any number may read, during the run, too: who keeps a place in the file is
+/// waited for (LockPatience). All members are thread-safe. Errors: InputError for a file that is
+/// missing, damaged, of another program or version, or that may not be written, SystemError for a
+/// full disk or a lock that outlasts all patience; the file is then as it was.
 class ResultStore {
  public:
   /// Name of a store in a results folder.
@@ -51,8 +52,8 @@ class ResultStore {
   ~ResultStore();
 
   /// Adds trials: of each its rows under all its detectors, which must agree in cell and trial.
-  /// Either all of them are stored or, with an InputError, none (a row is already there, the disk
-  /// is full).
+  /// Either all of them are stored or, with an InputError (a row is already there) or a SystemError
+  /// (the disk is full), none.
   void AddTrials(std::span<const std::vector<TrialRecord>> trials);
   void AddTrial(std::span<const TrialRecord> rows);
 
