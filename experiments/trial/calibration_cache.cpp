@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 #include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "core/io/sha256.h"
+#include "core/io/system_error.h"
 #include "core/io/temporary_files.h"
 #include "core/system/check.h"
 #include "core/system/program.h"
@@ -42,15 +43,13 @@ PairMatrix CovarianceIn(const std::string& text) {
   return covariance;
 }
 
+constexpr uintmax_t kLargestFile = 1u << 20;
+
 std::optional<CalibrationWithCovariance> Read(const std::filesystem::path& file) {
-  // A folder can be opened as a file; reading it is what fails.
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) return std::nullopt;
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const size_t end = text.find(kSum);
-  if (end == std::string::npos || text != Sealed(text.substr(0, end))) return std::nullopt;
   try {
+    const std::string text = ReadWholeFile(file, kLargestFile);
+    const size_t end = text.find(kSum);
+    if (end == std::string::npos || text != Sealed(text.substr(0, end))) return std::nullopt;
     return CalibrationWithCovariance{ReadStereoCalibration(file), CovarianceIn(text)};
   } catch (const InputError&) {
     return std::nullopt;
@@ -82,6 +81,8 @@ CalibrationWithCovariance CalibrationCache::Get(
     WriteFileAtomically(file, Sealed(ToText(computed)));
   } catch (const InputError&) {
     // Computed again next time.
+  } catch (const SystemError&) {
+    // So here.
   }
   return computed;
 }

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/detection/detector.h"
+#include "core/io/system_error.h"
 
 namespace fenestra {
 namespace {
@@ -79,6 +80,8 @@ std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>
     return detect();
   } catch (const DetectorFailure& failure) {
     return Crash{failure.kind(), failure.what()};
+  } catch (const SystemError&) {
+    throw;  // No detector is to blame.
   } catch (const std::exception& error) {
     return Crash{"exception", error.what()};
   } catch (...) {

@@ -17,7 +17,8 @@ struct Crash {
 };
 
 /// The detection that `detect` returns, or a Crash: of the kind that a DetectorFailure names, or of
-/// kind "exception" for anything else that it throws.
+/// kind "exception" for anything else that it throws but a SystemError, which is passed on: what the
+/// machine could not do is no fault of the detector.
 std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect);
 
 /// A hit is at most this fraction of the window's side away from the truth. The side is the smaller

@@ -16,7 +16,7 @@
 #include <cstring>
 #include <utility>
 
-#include "core/io/input_error.h"
+#include "core/io/system_error.h"
 
 extern char** environ;
 
@@ -46,7 +46,9 @@ struct Pipe {
 
   Pipe() {
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("pipe", strerror(errno));
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+      throw SystemError(fmt::format("no pipe to a program can be made: {}", strerror(errno)));
+    }
     read = ends[0];
     write = ends[1];
   }
@@ -127,6 +129,15 @@ void Close(int& file) {
 
 }  // namespace
 
+std::string Printable(std::string_view text, size_t most) {
+  std::string line(text.substr(0, most));
+  for (char& c : line) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte >= 0x7f) c = '?';
+  }
+  return line;
+}
+
 ChildProcess::ChildProcess(const std::vector<std::string>& words) {
   Pipe input, output, error;
   const SpawnSettings settings(input.read, output.write, error.write);
@@ -136,7 +147,7 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words) {
   const int failure = posix_spawnp(&process_, arguments[0], &settings.actions, &settings.attributes,
                                    arguments.data(), environ);
   if (failure != 0) {
-    throw InputError(words.front(), fmt::format("cannot be started: {}", strerror(failure)));
+    ThrowSystemFault(words.front(), "cannot be started", failure);
   }
   // Called by number, since the header of glibc 2.36 lacks its extern "C".
   watch_ = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));
@@ -257,12 +268,7 @@ std::string ChildProcess::LastError() const {
   if (last == std::string::npos) return "";
   const size_t before = last_errors_.rfind('\n', last);
   const size_t start = before == std::string::npos ? 0 : before + 1;
-  std::string line = last_errors_.substr(start, std::min(last + 1 - start, kLongestError));
-  for (char& c : line) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x20 || byte >= 0x7f) c = '?';
-  }
-  return line;
+  return Printable(std::string_view(last_errors_).substr(start, last + 1 - start), kLongestError);
 }
 
 }  // namespace fenestra

@@ -8,13 +8,18 @@
 
 namespace fenestra {
 
+/// The start of what a program wrote, for people: at most `most` bytes, '?' for all but printable
+/// ASCII.
+std::string Printable(std::string_view text, size_t most);
+
 /// A child process that communicates in lines. Its standard input and output are pipes, and the end
 /// of its standard error is kept. It leads a process group of its own, which is killed with it.
 /// Nothing that it does can block, end or exhaust this process: every wait has a limit, writing to
 /// a pipe that nobody reads raises no signal here, and its output is truncated.
 class ChildProcess {
  public:
-  /// Throws InputError if there is no such program or it cannot be started.
+  /// Throws InputError if there is no such program or it is none, SystemError if the machine has no
+  /// pipe or process left.
   explicit ChildProcess(const std::vector<std::string>& words);
   /// Closes its standard input, gives it a second to exit by itself, then kills its group.
   ~ChildProcess();

@@ -4,6 +4,7 @@
 
 #include "core/detection/detector.h"
 #include "core/io/input_error.h"
+#include "core/io/system_error.h"
 
 namespace fenestra {
 
@@ -27,7 +28,8 @@ std::string DetectorProgram::Talk(const std::string& request, double limit_s) {
     throw DetectorFailure("timeout", fmt::format("no answer within {} s", limit_s));
   }
   if (reply.end == ChildProcess::End::kFlood) {
-    throw DetectorFailure("flood", "it wrote more than the one line of an answer");
+    throw DetectorFailure(
+        "flood", "it wrote more than the one line of an answer; notes go to standard error");
   }
   const std::string last = process_.LastError();
   throw DetectorFailure("died", WithoutFolder(last.empty() ? end : end + ": " + last));
@@ -42,11 +44,40 @@ std::string DetectorProgram::WithoutFolder(const std::string& detail) const {
   return told;
 }
 
+void DetectorProgram::RequireThere(const ObservationFiles& files) const {
+  folder_.RequireThere();
+  for (const auto* file :
+       {&files.left, &files.right, &files.color, &files.depth, &files.calibration}) {
+    if (!file->empty() && !std::filesystem::exists(*file)) {
+      throw SystemError(*file, "was removed by another program");
+    }
+  }
+}
+
+ObservationFiles DetectorProgram::Hand(const Observation& observation,
+                                       const SensorCalibration& calibration) const {
+  folder_.RequireThere();
+  try {
+    WriteObservation(folder_.path(), observation, calibration);
+  } catch (const InputError& error) {
+    throw SystemError(error.what());
+  }
+  return ObservationFiles::In(folder_.path(), command_.sensor);
+}
+
 TimedDetection DetectorProgram::Ask(const Observation& observation,
                                     const SensorCalibration& calibration) {
-  WriteObservation(folder_.path(), observation, calibration);
+  const ObservationFiles files = Hand(observation, calibration);
+  try {
+    return Answer(files);
+  } catch (const DetectorFailure&) {
+    RequireThere(files);
+    throw;
+  }
+}
+
+TimedDetection DetectorProgram::Answer(const ObservationFiles& files) {
   const int64_t id = ++last_id_;
-  const auto files = ObservationFiles::In(folder_.path(), command_.sensor);
   const Clock clock = SteadyClock();
   const double start = clock();
   const std::string line = Talk(DetectRequest(id, files), command_.time_limit_s);

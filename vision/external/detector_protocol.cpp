@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/detection/detector.h"
+#include "vision/external/child_process.h"
 
 namespace fenestra {
 namespace {
@@ -31,8 +32,11 @@ Json ParseObject(std::string_view line) {
     Json json = Json::parse(line, count);
     if (!json.is_object()) throw DetectorFailure("bad_answer", "not a JSON object");
     return json;
-  } catch (const Json::exception& error) {
-    throw DetectorFailure("bad_json", error.what());
+  } catch (const Json::exception&) {
+    constexpr size_t kMostShown = 80;
+    throw DetectorFailure("bad_json", fmt::format("it wrote '{}' on standard output, which is not "
+                                                  "JSON; notes go to standard error",
+                                                  Printable(line, kMostShown)));
   }
 }
 

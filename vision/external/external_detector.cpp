@@ -2,6 +2,7 @@
 
 #include "core/detection/detector.h"
 #include "core/io/input_error.h"
+#include "core/io/system_error.h"
 #include "core/system/check.h"
 
 namespace fenestra {
@@ -26,6 +27,16 @@ std::unique_ptr<DetectorProgram> ProgramPool::Take() {
 
 TimedDetection ProgramPool::Ask(const Observation& observation,
                                 const SensorCalibration& calibration) {
+  try {
+    return AskOnce(observation, calibration);
+  } catch (const SystemError&) {
+    // The next program has a folder of its own, perhaps where there is more room.
+    return AskOnce(observation, calibration);
+  }
+}
+
+TimedDetection ProgramPool::AskOnce(const Observation& observation,
+                                    const SensorCalibration& calibration) {
   std::unique_ptr<DetectorProgram> program;
   try {
     program = Take();

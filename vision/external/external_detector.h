@@ -20,10 +20,12 @@ class ProgramPool {
   /// Starts the first program, if none is running. Throws InputError (DetectorProgram).
   void Start();
   /// Asks an idle program, or a new one, and keeps it if it is still running afterwards. Throws
-  /// DetectorFailure as DetectorProgram::Ask does, or with "start" if no program can be started.
+  /// DetectorFailure as DetectorProgram::Ask does, or with "start" if no program can be started;
+  /// SystemError if the machine failed twice in a row.
   TimedDetection Ask(const Observation& observation, const SensorCalibration& calibration);
 
  private:
+  TimedDetection AskOnce(const Observation& observation, const SensorCalibration& calibration);
   std::unique_ptr<DetectorProgram> Take();
 
   ExternalCommand command_;

@@ -11,6 +11,8 @@
 
 #include "core/detection/detector.h"
 #include "core/io/input_error.h"
+#include "core/io/system_error.h"
+#include "tests/support/temporary_folder.h"
 
 namespace fenestra {
 namespace {
@@ -138,6 +140,14 @@ TEST(ExternalDetectorTest, ASlowStartIsNoTimeout) {
   // The fake needs 0.7 s to start and has 0.5 s for an answer.
   EXPECT_EQ(ThreeAnswers(Fake("slow_start", "99")),
             (std::vector<std::string>{"window", "window", "window"}));
+}
+
+// A clean-up of temporary files, or the end of a session, may take a program's observation away.
+TEST(ExternalDetectorTest, AnObservationThatOthersRemoveIsHandedOverAgain) {
+  const testing::TemporaryFolder folder;
+  EXPECT_EQ(ThreeAnswers(Fake("cleared", folder / "mark")),
+            (std::vector<std::string>{"window", "window", "window"}));
+  EXPECT_THROW(ThreeAnswers(Fake("cleared")), SystemError);
 }
 
 TEST(ExternalDetectorTest, WhatCannotStartIsAnInputError) {

@@ -3,7 +3,8 @@
 //     fake_detector HOW [WHEN]
 //
 // HOW: what it does wrong. WHEN: "always" (default), "third": in about every third observation, as
-// its pixels say, a number n: in the n-th observation that it is handed, or n+: from that one on.
+// its pixels say, a number n: in the n-th observation that it is handed, or n+: from that one on, a
+// path: once, while there is no such file.
 // Else it answers with a window whose numbers come from the observation's bytes.
 
 #include <signal.h>
@@ -11,6 +12,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -89,6 +91,11 @@ void Misbehave(const std::string& how, Json answer) {
 bool Now(const std::string& when, int count, uint64_t hash) {
   if (when == "always") return true;
   if (when == "third") return hash % 3 == 0;
+  if (when.front() == '/') {
+    const bool first = !std::filesystem::exists(when);
+    std::ofstream mark(when);
+    return first;
+  }
   return when.back() == '+' ? count >= std::stoi(when) : count == std::stoi(when);
 }
 
@@ -115,6 +122,12 @@ int main(int argc, char** argv) {
     const uint64_t hash = HashOf(request.contains("left") ? request["left"] : request["color"]);
     const Json answer = Window(request["id"], hash);
     if (Now(when, ++count, hash)) {
+      if (how == "cleared") {  // By others, as a clean-up of temporary files would.
+        std::filesystem::remove_all(
+            std::filesystem::path(request["calibration"].get<std::string>()).parent_path());
+        Say(Json({{"id", answer["id"]}, {"outcome", "error"}, {"detail", "no file"}}).dump());
+        continue;
+      }
       Misbehave(how, answer);
     } else {
       Say(answer.dump());
