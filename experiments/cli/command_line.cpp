@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
@@ -59,20 +60,24 @@ int ReportParseError(const CLI::App& program, const CLI::ParseError& error) {
     if (flags && !flag) continue;  // Most likely the value of an unknown option.
     const std::vector<std::string> known = flag ? KnownFlags(*app) : KnownCommands(*app);
     const std::string name = word.substr(0, word.find('='));
-    fmt::print(stderr, "{}: unknown {} '{}'.{}\n", program.get_name(), flag ? "option" : "argument",
-               word, DidYouMean(name, known));
+    Tell(fmt::format("{}: unknown {} '{}'.{}", program.get_name(), flag ? "option" : "argument",
+                     word, DidYouMean(name, known)));
   }
-  if (unknown.empty()) fmt::print(stderr, "{}: {}\n", program.get_name(), error.what());
+  if (unknown.empty()) Tell(fmt::format("{}: {}", program.get_name(), error.what()));
   std::string command = program.get_name();
   for (const CLI::App* at = &program; at != app;) {
     at = at->get_subcommands().front();
     command += " " + at->get_name();
   }
-  fmt::print(stderr, "See '{} --help'.\n", command);
+  Tell(fmt::format("See '{} --help'.", command));
   return kInputError;
 }
 
 }  // namespace
+
+void Tell(const std::string& line) {
+  std::fputs((line + "\n").c_str(), stderr);
+}
 
 Option Option::Required() {
   return Option(option_->required());

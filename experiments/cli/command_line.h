@@ -25,6 +25,10 @@ enum ExitCode : int {
 // CLI11 behind an interface of what the commands need of it: its headers take more time to compile
 // than all commands together, so that command_line.cpp alone includes them.
 
+/// Writes a line for people to standard error. If it cannot be written it is lost: no command fails
+/// for want of a reader.
+void Tell(const std::string& line);
+
 /// An option or a positional argument of a command. A handle; the command line owns what it is of.
 class Option {
  public:

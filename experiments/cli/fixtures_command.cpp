@@ -101,7 +101,7 @@ int MakeFixtures(const FixtureArguments& arguments) {
     fmt::print("{}, about {}; nothing was written\n", what, estimate);
     return kDone;
   }
-  fmt::print(stderr, "{}, about {}\n", what, estimate);
+  Tell(fmt::format("{}, about {}", what, estimate));
   bool whole = false;
   {
     const InterruptWatch watch;
@@ -112,7 +112,7 @@ int MakeFixtures(const FixtureArguments& arguments) {
     whole = WriteFixtures(order);
   }
   if (!whole) {
-    fmt::print(stderr, "fenestra: interrupted; nothing was left in {}\n", order.out.string());
+    Tell(fmt::format("fenestra: interrupted; nothing was left in {}", order.out.string()));
     return kFailure;
   }
   fmt::print("{} are in {}, {}\n", what, order.out.string(),

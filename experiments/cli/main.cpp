@@ -1,6 +1,11 @@
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
+#include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
@@ -8,6 +13,7 @@
 #include "core/system/program.h"
 #include "experiments/cli/commands.h"
 #include "experiments/run/run_identity.h"
+#include "experiments/store/lock_wait.h"
 
 namespace fenestra::cli {
 namespace {
@@ -24,6 +30,21 @@ constexpr const char* kExamples =
     "  fenestra replay results/paper 7/3       one recorded trial again\n"
     "  fenestra list factors                   all that a study can vary\n"
     "Exit codes: 0 done, 1 a checked limit is violated, 2 input error, 3 anything else.";
+
+// A file that is opened later must not become standard output because that was closed.
+void OpenStandardStreams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    // The wrong way round, so that using it fails as it does on a closed one.
+    const int way = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", way) != stream) std::abort();
+  }
+}
+
+// What was written last stays in a buffer until somebody asks.
+bool OutputArrived() {
+  std::cout.flush();
+  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+}
 
 int Main(int argc, char** argv) {
   // Trials run in parallel; a single trial is single-threaded, or its times would mean nothing.
@@ -62,14 +83,20 @@ int Main(int argc, char** argv) {
 }  // namespace fenestra::cli
 
 int main(int argc, char** argv) {
-  fenestra::KeepFreedMemory();
+  using namespace fenestra;
+  cli::OpenStandardStreams();
+  KeepFreedMemory();
+  SetLockPatience({.notice = cli::Tell});
+  int exit_code = cli::kFailure;
   try {
-    return fenestra::cli::Main(argc, argv);
-  } catch (const fenestra::InputError& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return fenestra::cli::kInputError;
+    exit_code = cli::Main(argc, argv);
+  } catch (const InputError& error) {
+    cli::Tell(error.what());
+    exit_code = cli::kInputError;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "fenestra: {}\n", error.what());
-    return fenestra::cli::kFailure;
+    cli::Tell(fmt::format("fenestra: {}", error.what()));
   }
+  if (cli::OutputArrived()) return exit_code;
+  cli::Tell("fenestra: standard output cannot be written");
+  return cli::kFailure;
 }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <string_view>
 
 #include "experiments/output/number_format.h"
@@ -39,7 +40,10 @@ void Handle(int) {
 
 Progress::Options Progress::ForStandardError() {
   winsize size{};
-  const bool terminal = isatty(STDERR_FILENO) == 1;
+  const char* const kind = std::getenv("TERM");
+  // A dumb terminal shows control sequences as they are.
+  const bool terminal = isatty(STDERR_FILENO) == 1 && kind != nullptr && *kind != '\0' &&
+                        std::string_view(kind) != "dumb";
   if (terminal) ioctl(STDERR_FILENO, TIOCGWINSZ, &size);
   return {.terminal = terminal,
           .columns = size.ws_col > 0 ? size.ws_col : 80,
@@ -50,7 +54,7 @@ Progress::Options Progress::ForStandardError() {
               },
           .write =
               [](const std::string& text) {
-                fmt::print(stderr, "{}", text);
+                std::fputs(text.c_str(), stderr);  // Losing it stops no run.
                 std::fflush(stderr);
               }};
 }

@@ -76,7 +76,7 @@ Lighting LightingFor(const RenderArguments& arguments, const GltfScene& world) {
 
 void RenderScene(RenderArguments arguments) {
   const GltfScene world = ReadGltf(arguments.what, {.target_node = arguments.target});
-  for (const std::string& note : world.notes) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : world.notes) Tell("note: " + note);
   arguments.view.lighting = LightingFor(arguments, world);
   WriteSceneViews(OutputPath::Folder(arguments.out), world, arguments.view);
   const size_t cameras = CamerasOf(world, arguments.view).size();

@@ -25,10 +25,10 @@ int Run(const RunArguments& arguments) {
   run.pictures = !arguments.no_pictures;
   const StudyResult result = RunWithProgress(run);
   if (!result.complete()) {
-    fmt::print(stderr,
-               "fenestra: interrupted; {} of {} trials are stored in {}. The same command goes on "
-               "from there.\n",
-               result.stored, result.trials, run.out.string());
+    Tell(fmt::format(
+        "fenestra: interrupted; {} of {} trials are stored in {}. The same command goes on from "
+        "there.",
+        result.stored, result.trials, run.out.string()));
     return kFailure;
   }
   if (result.stored_before == result.trials) {

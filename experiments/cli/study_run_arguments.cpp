@@ -84,7 +84,7 @@ StudyResult RunWithProgress(StudyRun run) {
 
 void NoteMissingTrials(const ResultStore& store, const std::filesystem::path& file) {
   const std::string part = PartStored(store, file);
-  if (!part.empty()) fmt::print(stderr, "note: {} holds {}\n", file.string(), part);
+  if (!part.empty()) Tell(fmt::format("note: {} holds {}", file.string(), part));
 }
 
 void PrintResult(const std::vector<CellSummary>& summaries, const std::filesystem::path& folder) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/experiments/cli/program.h"
+#include "tests/experiments/cli/writing_commands.h"
 #include "tests/support/temporary_folder.h"
 
 namespace fenestra {
@@ -17,95 +18,7 @@ using ::testing::HasSubstr;
 using testing::ReadFile;
 using testing::TemporaryFolder;
 
-constexpr const char* kStudy =
-    "name: tiny\nrepetitions: 1\nsensors: [stereo]\ndetectors: [edge-stereo]\n"
-    "factors: {distance_m: 2}\n";
-
-/// A command and names that it uses; OUT stands for the folder, WORK for one with a study, its
-/// shards, its result and a recorded sequence.
-struct WritingCommand {
-  std::string name;
-  std::string arguments;
-  std::vector<std::string> files;
-  bool runs_here = true;  ///< False where it takes long or needs what is not here.
-};
-
-// Every command that writes into a folder.
-const std::vector<WritingCommand> kCommands = {
-    {"run",
-     "run WORK/tiny.yaml --out OUT --restart",
-     {"study.yaml", "trials.csv", "summary.csv", "summary.md", "intervals.csv", "results.sqlite"}},
-    {"merge",
-     "merge WORK/shard --out OUT --restart",
-     {"study.yaml", "trials.csv", "summary.csv", "summary.md", "intervals.csv", "results.sqlite"}},
-    {"check", "check WORK/limits.yaml --out OUT", {"study.yaml", "summary.md", "results.sqlite"}},
-    {"report",
-     "report WORK/result --out OUT --pictures",
-     {"study.yaml", "trials.csv", "summary.csv", "summary.md", "intervals.csv"}},
-    {"score",
-     "score WORK/sequence/sequence_with_detectors.yaml --out OUT --restart",
-     {"trials.csv", "summary.csv", "summary.md", "results.sqlite"}},
-    {"render_trial",
-     "render WORK/tiny.yaml --out OUT",
-     {"left.png", "calibration.yaml", "truth/truth.json"}},
-    {"render_sequence",
-     "render WORK/tiny.yaml --sequence stereo --out OUT",
-     {"sequence.yaml", "00000/left.png"}},
-    {"replay",
-     "replay WORK/result 0/0 --out OUT",
-     {"left.png", "calibration.yaml", "truth/trial.yaml"}},
-    {"emva",
-     "emva OUT --exposures 10 --frames 16 --width-px 64 --height-px 48",
-     {"report.md", "results.json", "photon_transfer.png", "emva1288.txt"}},
-    {"depth", "depth OUT", {"depth_curves.md", "depth_curves.png"}, false},
-    {"calibrate",
-     "calibrate stereo --left WORK/sequence/00000/left.png --right "
-     "WORK/sequence/00000/right.png --corners 9x6 --square-mm 30 --out OUT",
-     {"stereo.yaml", "report.md", "residuals.png"},
-     false},
-    {"submit",
-     "submit WORK/tiny.yaml --slurm --shards 2 --out OUT",
-     {"slurm/study.yaml", "slurm/array.sh", "slurm/merge.sh"},
-     false},
-    {"detect",
-     "detect stereo --left WORK/sequence/00000/left.png --right "
-     "WORK/sequence/00000/right.png "
-     "--calibration WORK/sequence/00000/calibration.yaml --detector edge-stereo --pictures OUT",
-     {"2_segments.png"}}};
-
-class OwnFilesTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    work_ = new TemporaryFolder;
-    work_->Write("tiny.yaml", kStudy);
-    work_->Write("limits.yaml", "study: tiny.yaml\nlimits: [rate(hit) >= 0.1]\n");
-    for (const char* command : {"run WORK/tiny.yaml --no-pictures --out WORK/result",
-                                "run WORK/tiny.yaml --no-pictures --shard 1/1 --out WORK/shard",
-                                "render WORK/tiny.yaml --sequence stereo --out WORK/sequence"}) {
-      const ProgramOutput output = Fenestra(Placed(command, ""));
-      ASSERT_EQ(output.exit_code, 0) << command << output.text;
-    }
-    work_->Write("sequence/sequence_with_detectors.yaml",
-                 ReadFile(*work_ / "sequence/sequence.yaml") + "detectors: [edge-stereo]\n");
-  }
-  static void TearDownTestSuite() {
-    delete work_;
-    work_ = nullptr;
-  }
-
-  static std::string Placed(std::string text, const fs::path& out) {
-    for (const auto& [word, path] : {std::pair("WORK", work_->path()), std::pair("OUT", out)}) {
-      for (size_t at = text.find(word); at != std::string::npos; at = text.find(word)) {
-        text.replace(at, std::string(word).size(), path.string());
-      }
-    }
-    return text;
-  }
-
-  static TemporaryFolder* work_;
-};
-
-TemporaryFolder* OwnFilesTest::work_ = nullptr;
+using OwnFilesTest = testing::WritingCommandsTest;
 
 std::map<std::string, std::string> ContentOf(const fs::path& folder) {
   std::map<std::string, std::string> content;
@@ -118,7 +31,7 @@ std::map<std::string, std::string> ContentOf(const fs::path& folder) {
 }
 
 TEST_F(OwnFilesTest, StayWhateverTheirNames) {
-  for (const WritingCommand& command : kCommands) {
+  for (const testing::WritingCommand& command : testing::WritingCommands()) {
     for (const std::string& file : command.files) {
       SCOPED_TRACE(command.name + " " + file);
       const TemporaryFolder out;
@@ -135,7 +48,7 @@ TEST_F(OwnFilesTest, StayWhateverTheirNames) {
 }
 
 TEST_F(OwnFilesTest, OfOtherNamesStayBesideTheResults) {
-  for (const WritingCommand& command : kCommands) {
+  for (const testing::WritingCommand& command : testing::WritingCommands()) {
     if (!command.runs_here) continue;
     const TemporaryFolder out;
     out.Write("notes.txt", "mine");
@@ -155,7 +68,7 @@ TEST_F(OwnFilesTest, OfOtherNamesStayBesideTheResults) {
 // A folder that holds results of this program, or of a version that kept no record of its files.
 TEST(ResultsFolderTest, AnEditedReportStaysAndOneOfAnEarlierVersionIsReplaced) {
   const TemporaryFolder folder;
-  const std::string study = folder.Write("tiny.yaml", kStudy).string();
+  const std::string study = folder.Write("tiny.yaml", testing::kTinyStudy).string();
   const std::string out = (folder / "out").string();
   ASSERT_EQ(Fenestra("run " + study + " --out " + out).exit_code, 0);
   fs::remove(folder / "out/.fenestra");
@@ -176,7 +89,7 @@ TEST(ResultsFolderTest, AnEditedReportStaysAndOneOfAnEarlierVersionIsReplaced) {
 
 TEST(ResultsFolderTest, ScoresDoNotReplaceAStudyOrAnotherSequence) {
   const TemporaryFolder folder;
-  const std::string study = folder.Write("tiny.yaml", kStudy).string();
+  const std::string study = folder.Write("tiny.yaml", testing::kTinyStudy).string();
   const std::string out = (folder / "out").string();
   ASSERT_EQ(Fenestra("run " + study + " --no-pictures --out " + out).exit_code, 0);
   ASSERT_EQ(Fenestra("render " + study + " --sequence stereo --out " + (folder / "frames").string())

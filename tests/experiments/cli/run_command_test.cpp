@@ -190,7 +190,7 @@ TEST_F(RunCommandTest, AFullDiskEndsTheRunAndWhatIsStoredStays) {
       Shell(mount + FENESTRA_PROGRAM " " + Command("out") + "; code=$?; cp " + out +
                 "/results.sqlite " + (folder_ / "kept").string() + "; ls " + out + "; exit $code'",
             folder_ / "said.txt");
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+  EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("results.sqlite: "), HasSubstr("full"), Not(HasSubstr("terminate"))));
   // On a larger disk the run goes on.
@@ -223,7 +223,7 @@ TEST_F(RunCommandTest, AFolderThatCannotBeWrittenIsRefused) {
   const ProgramOutput restart = run(" --restart");
   EXPECT_EQ(restart.exit_code, 2) << restart.text;
   EXPECT_THAT(restart.text,
-              AllOf(HasSubstr("results.sqlite: cannot be made"), Not(HasSubstr("terminate"))));
+              AllOf(HasSubstr("cannot be written: Read-only"), Not(HasSubstr("terminate"))));
   EXPECT_EQ(ReadFile(folder_ / "out/results.sqlite"), before);
   const ProgramOutput fresh =
       Shell(mount + FENESTRA_PROGRAM " " + Command("out/new") + "'", folder_ / "said.txt");
