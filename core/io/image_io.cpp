@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "core/io/temporary_files.h"
 
 namespace fenestra {
@@ -28,7 +28,7 @@ uint32_t BigEndian(const unsigned char* bytes) {
 // huge image.
 void RefuseHugePng(const std::filesystem::path& file) {
   std::array<unsigned char, 24> header{};
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = OpenInput(file);
   stream.read(reinterpret_cast<char*>(header.data()), header.size());
   if (!stream || !std::equal(kPngSignature.begin(), kPngSignature.end(), header.begin())) return;
   const uint32_t width = BigEndian(&header[16]);
@@ -43,7 +43,7 @@ void RefuseHugePng(const std::filesystem::path& file) {
 // from outside; only these are let through to it.
 bool IsKnownFormat(const std::filesystem::path& file) {
   std::array<char, 8> bytes{};
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = OpenInput(file);
   stream.read(bytes.data(), bytes.size());
   const std::string_view start(bytes.data(), static_cast<size_t>(stream.gcount()));
   constexpr std::array<std::string_view, 8> kStarts = {"\x89PNG\r\n\x1a\n",
@@ -59,9 +59,6 @@ bool IsKnownFormat(const std::filesystem::path& file) {
 }
 
 cv::Mat Read(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw InputError(file, "no such file");
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file, "not a regular file");
   RefuseHugePng(file);
   if (!IsKnownFormat(file)) throw InputError(file, kNotAnImage);
   cv::Mat image;
@@ -111,7 +108,8 @@ cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
 
 void WritePng(const OutputPath& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw InputError(file.path(), "cannot be encoded as PNG");
+  if (!cv::imencode(".png", image, bytes))
+    throw InputError(file.path(), "cannot be encoded as PNG");
   WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 

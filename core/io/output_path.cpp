@@ -1,8 +1,10 @@
 #include "core/io/output_path.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
 #include <mutex>
 #include <set>
@@ -11,6 +13,7 @@
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "core/io/sha256.h"
+#include "core/io/system_error.h"
 #include "core/system/check.h"
 
 namespace fenestra {
@@ -87,9 +90,10 @@ class OutputPath::Record {
   void Append(const std::string& lines) {
     std::error_code error;
     fs::create_directories(folder_, error);
+    errno = 0;
     std::ofstream stream(file_, std::ios::app);
     stream << lines << std::flush;
-    if (!stream) throw InputError(file_, "cannot be written");
+    if (!stream) ThrowSystemFault(file_, "cannot be written", errno);
   }
 
   void Read() {
@@ -126,6 +130,19 @@ void OutputPath::RequireFree(const std::vector<std::string>& names) const {
     faults.Require(record_->IsFree(path_ / name), fmt::format("{} {}", name, kInTheWay));
   }
   faults.ThrowIfAny();
+}
+
+void OutputPath::RequireWritable() const {
+  std::error_code error;
+  if (!record_ && fs::is_directory(path_, error)) {
+    throw InputError(path_, "cannot be written: it is a folder");
+  }
+  fs::path folder = record_ ? fs::absolute(path_) : fs::absolute(path_).parent_path();
+  while (!fs::exists(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  if (!fs::is_directory(folder, error)) ThrowSystemFault(folder, "cannot be written", ENOTDIR);
+  if (access(folder.c_str(), W_OK | X_OK) != 0) {
+    ThrowSystemFault(folder, "cannot be written", errno);
+  }
 }
 
 void OutputPath::Claim(const std::string& sha256) const {

@@ -29,6 +29,9 @@ class OutputPath {
   /// Throws InputError if one of these files below this folder is there and not the program's own;
   /// names them all.
   void RequireFree(const std::vector<std::string>& names) const;
+  /// Throws InputError if it can be foreseen that nothing can be written here (a file to be) or below
+  /// here (a folder): before work is done whose last step would fail. Changes nothing.
+  void RequireWritable() const;
   /// Records that a file with this SHA-256 is about to appear here. Throws InputError if something
   /// else is there.
   void Claim(const std::string& sha256) const;

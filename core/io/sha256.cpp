@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "core/system/check.h"
 
 namespace fenestra {
@@ -44,7 +45,7 @@ std::string Sha256(std::string_view bytes) {
 }
 
 std::string Sha256OfFile(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+  std::ifstream stream = OpenInput(file);
   Digest digest;
   std::array<char, 1 << 16> buffer;
   while (stream) {

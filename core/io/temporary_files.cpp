@@ -1,20 +1,20 @@
 #include "core/io/temporary_files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
-#include <charconv>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <string>
 
-#include "core/io/input_error.h"
 #include "core/io/sha256.h"
+#include "core/io/system_error.h"
 
 namespace fenestra {
 
@@ -22,37 +22,62 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The number of the process follows, so that others can tell which folders are abandoned.
 constexpr std::string_view kPrefix = "fenestra-";
+constexpr std::string_view kPattern = "XXXXXX";  // What mkdtemp replaces.
+
+// Room for the pictures of many jobs. Where memory is short, a disk serves as well.
+constexpr uintmax_t kEnoughMemory_bytes = 16u << 20;
 
 fs::path Parent() {
-  const char* const memory = "/dev/shm";
-  return access(memory, W_OK | X_OK) == 0 ? fs::path(memory) : fs::temp_directory_path();
+  const fs::path memory = "/dev/shm";
+  std::error_code error;
+  const fs::space_info space = fs::space(memory, error);
+  if (!error && space.available >= kEnoughMemory_bytes &&
+      access(memory.c_str(), W_OK | X_OK) == 0) {
+    return memory;
+  }
+  const fs::path disk = fs::temp_directory_path(error);
+  if (error) {
+    throw SystemError(fmt::format(
+        "no folder for temporary files: {} is full or cannot be written, and TMPDIR names {}",
+        memory.string(),
+        std::getenv("TMPDIR") == nullptr ? "none, nor is there /tmp" : "no folder"));
+  }
+  return fs::absolute(disk);
 }
 
-bool IsLeftBehind(const fs::path& folder) {
-  const std::string name = folder.filename();
-  if (!name.starts_with(kPrefix)) return false;
-  pid_t pid = 0;
-  const char* const end = name.data() + name.size();
-  const auto [dash, error] = std::from_chars(name.data() + kPrefix.size(), end, pid);
-  if (error != std::errc() || dash == end || *dash != '-' || pid <= 0) return false;
+bool IsSame(int descriptor, const fs::path& folder) {
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && lstat(folder.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+int OpenFolder(const fs::path& folder) {
+  return open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+// Removes a folder of this user that no process has locked. One that cannot be locked (NFS) stays.
+void RemoveIfLeftBehind(const fs::path& folder) {
+  const int descriptor = OpenFolder(folder);
+  if (descriptor < 0) return;
   struct stat info {};
-  if (lstat(folder.c_str(), &info) != 0 || !S_ISDIR(info.st_mode)) return false;
-  return info.st_uid == getuid() && kill(pid, 0) != 0 && errno == ESRCH;
+  if (fstat(descriptor, &info) == 0 && info.st_uid == getuid() &&
+      flock(descriptor, LOCK_EX | LOCK_NB) == 0) {
+    std::error_code error;
+    fs::remove_all(folder, error);
+  }
+  close(descriptor);
 }
 
 void RemoveWhatWasLeft(const fs::path& parent) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(parent, error)) {
-    if (IsLeftBehind(entry.path())) fs::remove_all(entry.path(), error);
+    const std::string name = entry.path().filename();
+    if (name.starts_with(kPrefix) && name.size() == kPrefix.size() + kPattern.size()) {
+      RemoveIfLeftBehind(entry.path());
+    }
   }
-}
-
-// With the system's reason: the streams of the library keep none but errno.
-std::string CannotBeWritten() {
-  return errno == 0 ? "cannot be written"
-                    : fmt::format("cannot be written: {}", std::strerror(errno));
 }
 
 }  // namespace
@@ -74,7 +99,7 @@ void WriteFileAtomically(const OutputPath& file, const std::function<void(std::o
   const fs::path& path = file.path();
   std::error_code error;
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
-  if (error) throw InputError(path, "its folder cannot be made: " + error.message());
+  if (error) ThrowSystemFault(path, "its folder cannot be made", error.value());
   const fs::path temporary = TemporaryBeside(path);
   {
     errno = 0;
@@ -82,7 +107,7 @@ void WriteFileAtomically(const OutputPath& file, const std::function<void(std::o
     try {
       if (stream) write(stream);
       stream.close();
-      if (!stream) throw InputError(path, CannotBeWritten());
+      if (!stream) ThrowSystemFault(path, "cannot be written", errno);
       if (file.IsRecorded()) file.Claim(Sha256OfFile(temporary));
     } catch (...) {
       fs::remove(temporary, error);
@@ -91,25 +116,36 @@ void WriteFileAtomically(const OutputPath& file, const std::function<void(std::o
   }
   fs::rename(temporary, path, error);
   if (error) {
-    const std::string reason = error.message();
+    const int reason = error.value();
     fs::remove(temporary, error);
-    throw InputError(path, "cannot be written: " + reason);
+    ThrowSystemFault(path, "cannot be written", reason);
   }
 }
 
 PrivateFolder::PrivateFolder() {
   const fs::path parent = Parent();
   RemoveWhatWasLeft(parent);
-  std::string pattern = (parent / fmt::format("{}{}-XXXXXX", kPrefix, getpid())).string();
-  if (mkdtemp(pattern.data()) == nullptr) {
-    throw InputError(parent, fmt::format("no folder can be made there: {}", strerror(errno)));
-  }
-  path_ = pattern;
+  do {  // Another process may take it for left behind before it is locked.
+    if (descriptor_ >= 0) close(descriptor_);
+    std::string pattern = (parent / fmt::format("{}{}", kPrefix, kPattern)).string();
+    if (mkdtemp(pattern.data()) == nullptr) {
+      throw SystemError(parent, fmt::format("no folder can be made there: {}", strerror(errno)));
+    }
+    path_ = pattern;
+    descriptor_ = OpenFolder(path_);
+    if (descriptor_ >= 0) flock(descriptor_, LOCK_EX);
+  } while (descriptor_ < 0 ? errno == ENOENT : !IsSame(descriptor_, path_));
+  if (descriptor_ < 0) throw SystemError(path_, strerror(errno));
 }
 
 PrivateFolder::~PrivateFolder() {
   std::error_code error;
-  fs::remove_all(path_, error);
+  if (IsSame(descriptor_, path_)) fs::remove_all(path_, error);
+  close(descriptor_);
+}
+
+void PrivateFolder::RequireThere() const {
+  if (!IsSame(descriptor_, path_)) throw SystemError(path_, "was removed by another program");
 }
 
 }  // namespace fenestra

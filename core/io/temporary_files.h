@@ -22,9 +22,10 @@ void WriteFileAtomically(const OutputPath& file, std::string_view bytes);
 void WriteFileAtomically(const OutputPath& file, const std::function<void(std::ostream&)>& write);
 
 /// A new folder that only this user can enter, removed with its contents at the end of the scope.
-/// It is in memory (/dev/shm) if possible, otherwise among the temporary files. Folders that killed
-/// processes have left behind are removed when the next one is made. Throws InputError if no folder
-/// can be made.
+/// It is in memory (/dev/shm) if there is room, otherwise among the temporary files. Its process
+/// holds a lock on it, so that folders that killed processes have left behind, and no others, are
+/// removed when the next one is made: a process number would mean nothing where containers or hosts
+/// share the place. Throws SystemError if no folder can be made.
 class PrivateFolder {
  public:
   PrivateFolder();
@@ -33,9 +34,12 @@ class PrivateFolder {
   PrivateFolder& operator=(const PrivateFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
+  /// Throws SystemError if it is no longer there: others may clear the place, too.
+  void RequireThere() const;
 
  private:
   std::filesystem::path path_;
+  int descriptor_ = -1;  ///< Locked as long as the folder is in use.
 };
 
 }  // namespace fenestra

@@ -5,29 +5,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
+
+#include "core/io/input_file.h"
 
 namespace fenestra {
 namespace {
 
 constexpr uintmax_t kLargestFile = 4u << 20;
-
-std::string ReadText(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (error || !std::filesystem::exists(status)) throw InputError(file, "no such file");
-  if (!std::filesystem::is_regular_file(status)) throw InputError(file, "not a regular file");
-  const uintmax_t size = std::filesystem::file_size(file, error);
-  if (error) throw InputError(file, "cannot be read: " + error.message());
-  if (size > kLargestFile) {
-    throw InputError(file, fmt::format("{} bytes; at most {} are read", size, kLargestFile));
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad() || text.size() != size) throw InputError(file, "cannot be read");
-  return text;
-}
 
 // OpenCV's FileStorage starts its files with "%YAML:1.0", which is not a YAML directive. It
 // becomes a comment of the same length, so that positions stay true.
@@ -69,7 +54,7 @@ YamlReader::YamlReader(std::string text, std::string source)
 }
 
 YamlReader YamlReader::FromFile(const std::filesystem::path& file) {
-  return YamlReader(ReadText(file), file.string());
+  return YamlReader(ReadWholeFile(file, kLargestFile), file.string());
 }
 
 YamlReader YamlReader::FromText(const std::string& text, const std::string& source) {

@@ -60,6 +60,7 @@ CalibrationBoard BoardOf(const CalibrateArguments& arguments) {
 void Calibrate(const CalibrateArguments& arguments) {
   const CalibrationBoard board = BoardOf(arguments);
   const OutputPath out = OutputPath::Folder(arguments.out);
+  out.RequireWritable();
   out.RequireFree(kCalibrationFiles);
   const auto pairs = PairUp(ImageFiles(arguments.left), ImageFiles(arguments.right));
   const StereoCalibrationResult result =

@@ -53,6 +53,9 @@ fs::path Run(const CheckArguments& arguments, const LimitFile& file) {
 
 int Check(const CheckArguments& arguments) {
   const LimitFile file = ReadLimitFile(YamlReader::FromFile(arguments.limits));
+  for (const fs::path& out : {arguments.junit, arguments.markdown}) {
+    if (!out.empty()) OutputPath(out).RequireWritable();
+  }
   std::vector<TrialRecord> baseline;
   if (!arguments.baseline.empty()) baseline = OpenResults(arguments.baseline).Rows();
   const fs::path results = arguments.results.empty() ? Run(arguments, file) : arguments.results;

@@ -27,6 +27,7 @@ void AddDepthCommand(Command program) {
   command.AddOption("--seed", *seed, "Of the noise").ShowDefault();
   command.Action([folder, seed] {
     const OutputPath out = OutputPath::Folder(*folder);
+    out.RequireWritable();
     out.RequireFree({"depth_curves.md", "depth_curves.png"});
     StructuredLightOptions options;
     const DepthCurves parametric = MeasureDepthCurves(options, RandomStream(*seed));

@@ -80,11 +80,13 @@ void WriteResults(const OutputPath& folder, const emva::Results& results,
 void Emva(const EmvaArguments& arguments) {
   const std::filesystem::path descriptor = arguments.folder / "emva1288.txt";
   const OutputPath folder = OutputPath::Folder(arguments.folder);
+  folder.RequireWritable();
   folder.RequireFree({"report.md", "results.json", "photon_transfer.png"});
   if (arguments.evaluate_only) {
     const emva::Series series = emva::ReadDescriptor(descriptor);
     return WriteResults(folder, emva::Evaluate(series, emva::FilesBeside(descriptor, series)), {});
   }
+  folder.RequireWritable();
   folder.RequireFree({descriptor.filename().string()});
   const TrialSettings settings = SettingsOf(arguments);
   const ImageSensorOptions& sensor = settings.stereo.sensor;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <sstream>
 
 #include "core/io/faults.h"
+#include "core/io/input_file.h"
 
 namespace fenestra::emva {
 namespace {
@@ -33,8 +33,7 @@ std::optional<double> NumberIn(std::string word) {
 class DescriptorReader {
  public:
   explicit DescriptorReader(const std::filesystem::path& file) : faults_(file.string()) {
-    std::ifstream stream(file);
-    if (!stream) throw InputError(file, "there is no such file, or it cannot be read");
+    std::ifstream stream = OpenInput(file);
     for (std::string line; std::getline(stream, line);) {
       ++line_;
       Read(line);
@@ -147,8 +146,9 @@ ImageReader FilesBeside(const std::filesystem::path& descriptor, const Series& s
   const std::filesystem::path folder = descriptor.parent_path();
   return [folder, bits = series.bits, size = series.size](const ImageSet& set, size_t index) {
     const std::filesystem::path file = folder / set.files[index];
+    OpenInput(file);  // OpenCV tells no reason.
     const cv::Mat image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
-    if (image.empty()) throw InputError(file.string(), "is missing or not an image");
+    if (image.empty()) throw InputError(file.string(), "is not a readable image");
     if (image.channels() != 1 || (image.depth() != CV_8U && image.depth() != CV_16U)) {
       throw InputError(file.string(), "must have one channel of 8 or 16 bits");
     }

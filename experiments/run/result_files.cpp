@@ -10,6 +10,7 @@
 #include <ostream>
 
 #include "core/io/input_error.h"
+#include "core/io/system_error.h"
 #include "core/io/temporary_files.h"
 #include "experiments/analysis/cell_tally.h"
 #include "experiments/report/provenance.h"
@@ -166,9 +167,9 @@ void WriteResultPictures(const ResultStore& store, const Study& study, std::span
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   std::error_code error;
   if (std::filesystem::create_directories(folder, error)) made_ = folder;
-  if (error) throw InputError(folder, "the folder cannot be made: " + error.message());
+  if (error) ThrowSystemFault(folder, "the folder cannot be made", error.value());
   descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) throw InputError(folder, "is not a folder that can be read");
+  if (descriptor_ < 0) ThrowSystemFault(folder, "the folder cannot be read", errno);
   if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(descriptor_);
     throw InputError(folder, "another process is running a study into this folder");

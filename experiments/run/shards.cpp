@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <iterator>
 #include <map>
 
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "core/system/program.h"
 #include "experiments/run/result_files.h"
 #include "experiments/run/run_identity.h"
@@ -158,7 +158,7 @@ void CopyPictures(const std::vector<ShardResult>& shards, const OutputPath& out)
       if (!entry.is_regular_file()) continue;
       WriteFileAtomically(out / "pictures" / entry.path().lexically_relative(pictures),
                           [&entry](std::ostream& to) {
-                            to << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+                            to << OpenInput(entry.path()).rdbuf();
                           });
     }
   }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <optional>
 
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "core/io/temporary_files.h"
 #include "core/system/program.h"
 #include "experiments/analysis/cell_tally.h"
@@ -130,8 +130,7 @@ void WriteReports(const SequenceRun& run, const std::vector<TrialRecord>& record
 
 MadeDetections ReadDetections(const std::string& label, const std::filesystem::path& file,
                               size_t frames) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file, "cannot be read");
+  std::ifstream stream = OpenInput(file);
   MadeDetections made{.label = label, .detections = {}};
   try {
     while ((stream >> std::ws).good() && stream.peek() != std::ifstream::traits_type::eof()) {
@@ -157,6 +156,7 @@ std::vector<CellSummary> ScoreSequence(const SequenceRun& run) {
   const FolderLock lock(run.out);
   const OutputPath out = ResultsFolder(run.out);
   if (!run.restart) CheckMayReplace(run);
+  out.RequireWritable();
   const auto trials = TryAll(run);
   out.StartRecord();
   ResultStore store = ResultStore::Create(run.out / ResultStore::kFileName, MetadataOf(run),

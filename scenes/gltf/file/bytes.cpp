@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <stdexcept>
 
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 
 namespace fenestra::gltf {
 namespace {
@@ -122,10 +122,8 @@ std::filesystem::path FileInFolder(std::string_view uri, const std::filesystem::
 }  // namespace
 
 Bytes ReadWholeFile(const std::filesystem::path& file, ByteBudget& budget) {
+  std::ifstream stream = OpenInput(file);
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw InputError(file, "no such file");
-  // A pipe or a device may never end.
-  if (!std::filesystem::is_regular_file(file, error)) throw InputError(file, "not a regular file");
   const uintmax_t size = std::filesystem::file_size(file, error);
   if (error) throw InputError(file, "cannot be read: " + error.message());
   if (size > budget.limit() || !budget.Take(size)) {
@@ -133,7 +131,6 @@ Bytes ReadWholeFile(const std::filesystem::path& file, ByteBudget& budget) {
         file, fmt::format("{} bytes; at most {} are read for one scene", size, budget.limit()));
   }
   Bytes bytes(size);
-  std::ifstream stream(file, std::ios::binary);
   stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
   if (!stream) throw InputError(file, "cannot be read");
   return bytes;

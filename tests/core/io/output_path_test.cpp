@@ -126,5 +126,19 @@ TEST_F(OutputPathTest, TheRecordIsReadBySha256sum) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
+TEST(OutputPathTest, WhatCannotBeWrittenIsForeseenAndNothingIsMade) {
+  const TemporaryFolder folder;
+  folder.Write("file", "text");
+  OutputPath("new.xml").RequireWritable();
+  OutputPath(folder / "new.xml").RequireWritable();
+  OutputPath(folder / "file").RequireWritable();  // It is replaced.
+  OutputPath(folder / "not/yet/there.xml").RequireWritable();
+  OutputPath::Folder(folder / "not/yet").RequireWritable();
+  EXPECT_THROW(OutputPath(folder.path()).RequireWritable(), InputError);
+  EXPECT_THROW(OutputPath(folder / "file/new.xml").RequireWritable(), InputError);
+  EXPECT_THROW(OutputPath::Folder(folder / "file").RequireWritable(), InputError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "not"));
+}
+
 }  // namespace
 }  // namespace fenestra
