@@ -17,8 +17,11 @@ struct Crash {
 };
 
 /// The detection that `detect` returns, or a Crash: of the kind that a DetectorFailure names, or of
-/// kind "exception" for anything else that it throws.
-std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect);
+/// kind "exception" for anything else that it throws. An InputError of a detector that is
+/// `own`, one of Fenestra's, passes: the calibration or the images are at fault then, and no
+/// figure of the detector would say so.
+std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect,
+                                                bool own = false);
 
 /// A hit is at most this fraction of the window's side away from the truth. The side is the smaller
 /// of width and height: a drone that aims so far off centre keeps a quarter of the side to the
