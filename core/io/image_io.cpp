@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
@@ -106,12 +107,15 @@ cv::Mat3b ReadColorImage(const std::filesystem::path& file) {
 cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
   cv::Mat image = Read(file);
   if (image.type() != CV_16UC1) Refuse(file, image, "a 16-bit single-channel depth image");
+  // The largest value says that a measurement is out of range, or that there is none.
+  image.setTo(0, image == std::numeric_limits<uint16_t>::max());
   return image;
 }
 
 void WritePng(const OutputPath& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw InputError(file.path(), "cannot be encoded as PNG");
+  if (!cv::imencode(".png", image, bytes))
+    throw InputError(file.path(), "cannot be encoded as PNG");
   WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
