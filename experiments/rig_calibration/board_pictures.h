@@ -29,7 +29,7 @@ std::vector<PicturePair> PairUp(const std::vector<std::filesystem::path>& left,
 /// Calibrates from picture files, grey or colour, all of one size. Views in which the board is not
 /// found are left out with the finder's reason. Throws InputError, with all faults, for files that
 /// cannot be read or differ in size, and where CalibrateStereo does; also if the cameras are not
-/// apart (5 σ) or the right one stands on the left.
+/// apart (5 σ), the right one stands on the left, or detectors cannot rectify the pair.
 StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pairs,
                                               const CalibrationBoard& board,
                                               const AdjustmentOptions& adjustment);

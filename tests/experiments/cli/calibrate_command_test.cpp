@@ -136,6 +136,8 @@ TEST(CalibrateCommandTest, WrongInputIsNamedAndLeavesNothing) {
            {corners("9x9"), "upside down"},
            {square("-30"), "'-30' is not a positive number"},
            {square("0"), "'0' is not a positive number"},
+           {square("0.03"), "squares must have sides of 1 to 1000 mm, not of 0.03 mm"},
+           {square("30000"), "squares must have sides of 1 to 1000 mm"},
            {square("inf"), "'inf' is not a positive number"},
            {square("thirty"), "--square-mm"},
            {Calibrate("left*.jpg", "right*.jpg", "--corners 9x6 --square-mm 30 --charuco" + to),
