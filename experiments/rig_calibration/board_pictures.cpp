@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "core/io/faults.h"
+#include "core/io/file_name.h"
 #include "core/io/image_io.h"
 #include "vision/calibration/board_finder.h"
 #include "vision/stereo/rectification.h"
@@ -48,6 +49,8 @@ std::vector<std::string> FilesIn(const std::string& folder_or_pattern) {
   std::vector<std::string> files;
   try {
     cv::glob(folder_or_pattern, files);
+    const bool means_hidden = IsHidden(folder_or_pattern) && !fs::is_directory(folder_or_pattern);
+    if (!means_hidden) std::erase_if(files, IsHidden);
   } catch (const cv::Exception&) {
     files.clear();
   }

@@ -10,8 +10,9 @@
 namespace fenestra {
 
 /// The image files that a user means: files as given; of a folder, all files in it whose endings
-/// are those of images; of a pattern with * or ? in its last part, those that match. Sorted so that
-/// view2 comes before view10. Throws InputError for what does not exist or matches nothing.
+/// are those of images; of a pattern with * or ? in its last part, those that match. Hidden files
+/// only where a file or pattern begins with a dot. Sorted so that view2 comes before view10. Throws
+/// InputError for what does not exist or matches nothing.
 std::vector<std::filesystem::path> ImageFiles(const std::vector<std::string>& arguments);
 
 /// A pair of pictures of the board.

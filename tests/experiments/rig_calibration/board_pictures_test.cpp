@@ -148,6 +148,32 @@ TEST(BoardPicturesTest, PicturesOfTwoSizesAreRefusedByName) {
               ::testing::AllOf(HasSubstr("README.md"), HasSubstr("nothing.png")));
 }
 
+TEST(BoardPicturesTest, HiddenFilesAreTakenOnlyWhereTheyAreMeant) {
+  const TemporaryFolder folder;
+  for (const char* name : {"left1.png", "._left1.png", ".hidden.png", ".DS_Store"}) {
+    folder.Write(name, "");
+  }
+  const std::string in = folder.path().string();
+  EXPECT_THAT(Names(ImageFiles({in})), ElementsAre("left1.png"));
+  EXPECT_THAT(Names(ImageFiles({in + "/*.png"})), ElementsAre("left1.png"));
+  EXPECT_THAT(Names(ImageFiles({in + "/.h*.png"})), ElementsAre(".hidden.png"));
+  EXPECT_THAT(Names(ImageFiles({in + "/.hidden.png"})), ElementsAre(".hidden.png"));
+  // In a folder whose own name begins with a dot, the others.
+  std::filesystem::create_directory(folder / ".views");
+  folder.Write(".views/left1.PNG", "");
+  folder.Write(".views/._left1.PNG", "");
+  EXPECT_THAT(Names(ImageFiles({in + "/.views"})), ElementsAre("left1.PNG"));
+}
+
+TEST(BoardPicturesTest, EndingsInCapitalLettersAreThoseOfImages) {
+  const TemporaryFolder folder;
+  for (const char* name : {"1.JPG", "2.Jpeg", "3.PNG", "4.TIF", "5.PGM", "6.TXT"}) {
+    folder.Write(name, "");
+  }
+  EXPECT_THAT(Names(ImageFiles({folder.path().string()})),
+              ElementsAre("1.JPG", "2.Jpeg", "3.PNG", "4.TIF", "5.PGM"));
+}
+
 // A pair that stands one above the other: the same pictures, turned by 90 degrees.
 TEST(BoardPicturesTest, ARigThatNoDetectorTakesIsRefused) {
   const TemporaryFolder folder;
