@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <opencv2/core.hpp>
 
@@ -184,6 +185,24 @@ TEST(CalibrateCommandTest, AFileInTheFoldersPlaceIsKept) {
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_THAT(outcome.text, StartsWith(file.string()));
   EXPECT_EQ(ReadFile(file), "mine");
+}
+
+TEST(CalibrateCommandTest, ABracketIsPartOfAName) {
+  const TemporaryFolder folder;
+  for (const char* side : {"left", "right"}) {
+    std::filesystem::create_directory(folder / (std::string("[") + side + "]"));
+    for (const char* number : {"01", "03", "05", "07", "09", "12"}) {
+      const std::string name = fmt::format("{}{}.jpg", side, number);
+      std::filesystem::copy(kPictures + name, folder / fmt::format("[{}]", side) / name);
+    }
+  }
+  // Given as a user in that folder would, with and without a '='.
+  const std::string run = fmt::format(
+      "cd {} && {} calibrate stereo --left '[left]' "
+      "--right='[right]' --corners 9x6 --square-mm 30 --out '[rig]'",
+      folder.path().string(), FENESTRA_PROGRAM);
+  ASSERT_EQ(std::system((run + " > /dev/null").c_str()), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "[rig]/stereo.yaml"));
 }
 
 }  // namespace
