@@ -1,9 +1,37 @@
 #include "core/detection/observation.h"
 
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "core/io/faults.h"
 #include "core/io/image_io.h"
 #include "core/io/temporary_files.h"
 
 namespace fenestra {
+namespace {
+
+/// An image file, what it shows, and the camera that its calibration says took it.
+struct ImageOf {
+  const std::filesystem::path& file;
+  cv::Size size;
+  const CameraModel& camera;
+};
+
+// Throws InputError with all faults.
+void CheckSizes(const std::vector<ImageOf>& images) {
+  Faults faults;
+  for (const auto& [file, size, camera] : images) {
+    if (size == cv::Size(camera.width_px(), camera.height_px())) continue;
+    faults.AddFault(
+        {.source = file.string(),
+         .message = fmt::format("is {} x {} px; the calibration is for {} x {} px", size.width,
+                                size.height, camera.width_px(), camera.height_px())});
+  }
+  faults.ThrowIfAny();
+}
+
+}  // namespace
 
 const char* ToString(SensorKind kind) {
   return kind == SensorKind::kStereo ? "stereo" : "rgbd";
@@ -50,13 +78,18 @@ void WriteObservation(const OutputPath& folder, const Observation& observation,
 
 RecordedObservation ReadObservation(const ObservationFiles& files) {
   if (files.sensor == SensorKind::kStereo) {
-    return {.observation = StereoObservation{ReadGrayImage(files.left), ReadGrayImage(files.right)},
-            .calibration = ReadStereoCalibration(files.calibration)};
+    const StereoCalibration cameras = ReadStereoCalibration(files.calibration);
+    const StereoObservation images{ReadGrayImage(files.left), ReadGrayImage(files.right)};
+    CheckSizes({{files.left, images.left.size(), cameras.left},
+                {files.right, images.right.size(), cameras.right}});
+    return {.observation = images, .calibration = cameras};
   }
-  const RgbdCalibration calibration = ReadRgbdCalibration(files.calibration);
-  return {.observation = RgbdObservation{ReadColorImage(files.color),
-                                         {ReadDepthImage(files.depth), calibration.depth_unit_m}},
-          .calibration = calibration};
+  const RgbdCalibration cameras = ReadRgbdCalibration(files.calibration);
+  const RgbdObservation images{ReadColorImage(files.color),
+                               {ReadDepthImage(files.depth), cameras.depth_unit_m}};
+  CheckSizes({{files.color, images.color.size(), cameras.color},
+              {files.depth, images.depth.raw.size(), cameras.depth}});
+  return {.observation = images, .calibration = cameras};
 }
 
 }  // namespace fenestra

@@ -63,7 +63,8 @@ struct RecordedObservation {
   SensorCalibration calibration;
 };
 
-/// Throws InputError for a file that is missing, damaged or of another kind.
+/// Throws InputError for a file that is missing, damaged or of another kind, and for images whose
+/// sizes are not those of the calibration.
 RecordedObservation ReadObservation(const ObservationFiles& files);
 
 }  // namespace fenestra

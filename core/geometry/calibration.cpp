@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
+#include "core/geometry/calibration_entries.h"
 #include "core/io/yaml_reader.h"
 
 namespace fenestra {
@@ -15,47 +18,62 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr int64_t kLargestSide = 16384;
+constexpr double kLargestBaseline_m = 10.0;
+constexpr double kLargestOffset_m = 2.0;  // From a depth camera to its colour camera.
 
-// Row-major numbers of an "!!opencv-matrix" mapping.
+// The numbers of a list, or of a list of rows, or of OpenCV's mapping with rows, cols and data.
+std::optional<std::vector<double>> ReadNumbers(YamlReader& reader, const YAML::Node& node,
+                                               const std::string& name, size_t count) {
+  if (node.IsMap() && node["data"].IsDefined()) {
+    return reader.Numbers(node["data"], name + ".data", count);
+  }
+  if (!node.IsSequence() || node.size() == 0 || !node[0].IsSequence()) {
+    return reader.Numbers(node, name, count);
+  }
+  YAML::Node flat;
+  for (const YAML::Node& row : node) {
+    if (!row.IsSequence()) return reader.Numbers(node, name, count);
+    for (const YAML::Node& number : row) flat.push_back(number);
+  }
+  if (count == 0 || flat.size() == count) return reader.Numbers(flat, name, count);
+  reader.AddFault(node, fmt::format("{} must have {} numbers, not {}", name, count, flat.size()));
+  return std::nullopt;
+}
+
 std::vector<double> ReadMatrix(YamlReader& reader, const std::string& name, size_t rows,
                                size_t cols) {
   const YAML::Node node = reader.root()[name];
-  std::vector<double> fallback(rows * cols, 0.0);
+  const std::vector<double> fallback(rows * cols, 0.0);
   if (!node.IsDefined()) {
     reader.AddFault(reader.root(),
                     fmt::format("{} is missing: a {} x {} matrix", name, rows, cols));
     return fallback;
   }
-  if (!node.IsMap() || !node["data"].IsDefined()) {
-    reader.AddFault(node, fmt::format("{} must be an OpenCV matrix with rows, cols, data", name));
-    return fallback;
-  }
-  return reader.Numbers(node["data"], name + ".data", rows * cols).value_or(fallback);
+  return ReadNumbers(reader, node, name, rows * cols).value_or(fallback);
 }
 
 // Distortion vectors come with 4, 5 or more entries; what a Brown–Conrady lens cannot express must
 // be zero.
 BrownConrady ReadDistortion(YamlReader& reader, const std::string& name) {
   const YAML::Node node = reader.root()[name];
-  const YAML::Node data = node.IsDefined() && node.IsMap() ? node["data"] : node;
-  if (!data.IsDefined()) {
+  if (!node.IsDefined()) {
     reader.AddFault(reader.root(), name + " is missing: k1 k2 p1 p2 [k3]");
     return {};
   }
-  const auto values = reader.Numbers(data, name);
+  const auto values = ReadNumbers(reader, node, name, 0);
   if (!values) return {};
-  if (values->size() < 4) {
-    reader.AddFault(data,
-                    fmt::format("{} must have at least 4 numbers, not {}", name, values->size()));
+  const std::vector<double>& v = *values;
+  if (v.size() < 4) {
+    reader.AddFault(node, fmt::format("{} must have at least 4 numbers, not {}", name, v.size()));
     return {};
   }
-  for (size_t i = 5; i < values->size(); ++i) {
-    if ((*values)[i] != 0.0) {
-      reader.AddFault(data, name + ": only k1 k2 p1 p2 k3 are supported; the others must be 0");
-      return {};
-    }
+  if (std::any_of(v.begin() + std::min<ptrdiff_t>(5, std::ssize(v)), v.end(),
+                  [](double coefficient) { return coefficient != 0.0; })) {
+    reader.AddFault(node, fmt::format("{} has {} numbers, as of a rational or thin-prism model: "
+                                      "only k1 k2 p1 p2 k3 are read; the others must be 0",
+                                      name, v.size()));
+    return {};
   }
-  const auto& v = *values;
   return {.k1 = v[0], .k2 = v[1], .p1 = v[2], .p2 = v[3], .k3 = v.size() > 4 ? v[4] : 0.0};
 }
 
@@ -66,6 +84,21 @@ int ReadSize(YamlReader& reader, const std::string& name) {
     return 1;
   }
   return static_cast<int>(reader.Integer(node, name, 1, kLargestSide).value_or(1));
+}
+
+// Focal lengths in millimetres or as shares of the image, which other programs write, would be
+// those of a lens that sees nearly everything. Returns whether they are plausible.
+bool CheckFieldOfView(YamlReader& reader, const YAML::Node& at, const std::string& name,
+                      const CameraParameters& p) {
+  constexpr double kLargest_deg = 170.0;
+  const double tangent = std::max(0.5 * p.width_px / p.fx_px, 0.5 * p.height_px / p.fy_px);
+  const double field_deg = 2.0 * std::atan(tangent) * 180.0 / M_PI;
+  if (field_deg <= kLargest_deg) return true;
+  reader.AddFault(at, fmt::format("{}: focal lengths of {:g} and {:g} px make a field of view of "
+                                  "{:.1f} deg; they are read in pixels, not in millimetres or as "
+                                  "shares of the image",
+                                  name, p.fx_px, p.fy_px, field_deg));
+  return false;
 }
 
 CameraParameters FromMatrix(YamlReader& reader, const YAML::Node& at, const std::string& name,
@@ -83,7 +116,9 @@ CameraParameters FromMatrix(YamlReader& reader, const YAML::Node& at, const std:
   if (!pinhole && reader.fault_count() == 0) {
     reader.AddFault(at, name + " must be [fx 0 cx; 0 fy cy; 0 0 1] with positive focal lengths");
   }
-  if (!pinhole) p = {.width_px = 1, .height_px = 1, .fx_px = 1, .fy_px = 1, .distortion = {}};
+  if (!pinhole || !CheckFieldOfView(reader, at, name, p)) {
+    p = {.width_px = 1, .height_px = 1, .fx_px = 1, .fy_px = 1, .distortion = {}};
+  }
   return p;
 }
 
@@ -118,13 +153,20 @@ Pose ReadPose(YamlReader& reader) {
   return Pose(nearest, Vector3d(T[0], T[1], T[2]));
 }
 
-// Entries that are not named here are ignored: OpenCV's own tools add R1, P1, Q, E, F and dates.
+// Farther apart than cameras of such a sensor are: most likely not in metres.
+void CheckDistance(YamlReader& reader, const Pose& pose, double most_m) {
+  const double distance_m = pose.translation().norm();
+  if (distance_m <= most_m) return;
+  reader.AddFault(reader.root()["T"],
+                  fmt::format("T: the cameras would be {:g} m apart, and at most {:g} m are read: "
+                              "is T in millimetres? It is read in metres",
+                              distance_m, most_m));
+}
+
 YamlReader ReadDocument(const std::filesystem::path& file) {
   YamlReader reader = YamlReader::FromFile(file);
-  if (!reader.root().IsMap()) {
-    reader.AddFault(reader.root(), "must be a mapping of calibration entries");
-    reader.ThrowIfFaulty();
-  }
+  CheckFormat(reader);
+  CheckStatements(reader);
   return reader;
 }
 
@@ -162,6 +204,7 @@ StereoCalibration ReadStereoCalibration(const std::filesystem::path& file) {
   if (X_RL.translation().norm() == 0.0) {
     reader.AddFault(reader.root()["T"], "T must not be zero: the cameras need a baseline");
   }
+  CheckDistance(reader, X_RL, kLargestBaseline_m);
   reader.ThrowIfFaulty();
   return {left, right, X_RL};
 }
@@ -171,11 +214,15 @@ RgbdCalibration ReadRgbdCalibration(const std::filesystem::path& file) {
   const CameraModel color = ReadCamera(reader, "color", "K_color", "D_color");
   const CameraModel depth = ReadCamera(reader, "depth", "K_depth", "D_depth");
   const Pose X_KD = ReadPose(reader);
+  CheckDistance(reader, X_KD, kLargestOffset_m);
+  CheckDepthUnitIsStatedAsKnown(reader);
   double depth_unit_m = 0.001;
   if (const YAML::Node node = reader.root()["depth_unit_m"]; node.IsDefined()) {
     const auto value = reader.Number(node, "depth_unit_m");
-    if (value && !(*value > 0.0)) reader.AddFault(node, "depth_unit_m must be positive");
     depth_unit_m = value.value_or(depth_unit_m);
+    if (const auto objection = DepthUnitObjection(depth_unit_m)) {
+      reader.AddFault(node, "depth_unit_m: " + *objection);
+    }
   }
   reader.ThrowIfFaulty();
   return {color, depth, X_KD, depth_unit_m};
@@ -220,15 +267,13 @@ std::string ToRosCameraInfo(const CameraModel& camera, const std::string& camera
 }
 
 CameraModel ReadCameraInfo(const std::filesystem::path& file) {
-  YamlReader reader = ReadDocument(file);
+  YamlReader reader = YamlReader::FromFile(file);
+  if (!reader.root().IsMap()) reader.AddFault(reader.root(), "must be a mapping of entries");
+  reader.ThrowIfFaulty();
+  CheckStatements(reader);
   const int width_px = ReadSize(reader, "image_width");
   const int height_px = ReadSize(reader, "image_height");
   const std::vector<double> K = ReadMatrix(reader, "camera_matrix", 3, 3);
-  const YAML::Node model = reader.root()["distortion_model"];
-  if (model.IsDefined() && model.IsScalar() && model.Scalar() != "plumb_bob") {
-    reader.AddFault(model,
-                    "distortion_model must be plumb_bob, not " + YamlReader::Describe(model));
-  }
   const BrownConrady distortion = ReadDistortion(reader, "distortion_coefficients");
   const CameraParameters parameters = FromMatrix(
       reader, reader.root()["camera_matrix"], "camera_matrix", width_px, height_px, K, distortion);

@@ -41,9 +41,14 @@ using SensorCalibration = std::variant<StereoCalibration, RgbdCalibration>;
 ///            (1 left, 2 right; p_R = R p_L + T, metres; D = k1 k2 p1 p2 k3)
 ///   rgbd:    color_width, color_height, K_color, D_color,
 ///            depth_width, depth_height, K_depth, D_depth, R, T, depth_unit_m
-///            (p_K = R p_D + T, metres; for a depth image registered to colour R = 1, T = 0)
+///            (p_K = R p_D + T, metres; for a depth image registered to colour R = 1, T = 0;
+///            without depth_unit_m it is 0.001)
 ///
-/// Readers throw InputError with all faults of the file and their positions.
+/// A matrix may also be a plain list of its numbers, row by row, or a list of rows. Readers throw
+/// InputError with all faults of the file and their positions; also for what is implausible: a
+/// field of view above 170 degrees, cameras more than 10 m apart (2 m from depth to colour), a
+/// depth unit that DepthUnitObjection refuses, and statements that contradict how the file is read
+/// (calibration_entries.h).
 
 StereoCalibration ReadStereoCalibration(const std::filesystem::path& file);
 RgbdCalibration ReadRgbdCalibration(const std::filesystem::path& file);

@@ -14,8 +14,11 @@ void Validate(const CalibrationBoard& board) {
                      board.rows <= kMost,
                  fmt::format("{} x {} squares are not between {} and {} a side", board.columns,
                              board.rows, kFewest, kMost));
-  faults.Require(board.square_m > 0.0,
-                 fmt::format("squares of {} m are not positive", board.square_m));
+  constexpr double kSmallest_m = 0.001;
+  constexpr double kLargest_m = 1.0;
+  faults.Require(board.square_m >= kSmallest_m && board.square_m <= kLargest_m,
+                 fmt::format("squares must have sides of {:g} to {:g} mm, not of {:g} mm",
+                             1e3 * kSmallest_m, 1e3 * kLargest_m, 1e3 * board.square_m));
   if (board.kind == BoardKind::kCharuco) {
     faults.Require(board.marker_m > 0.0 && board.marker_m < board.square_m,
                    fmt::format("markers of {} m do not fit into squares of {} m", board.marker_m,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
 
@@ -103,6 +104,8 @@ cv::Mat3b ReadColorImage(const std::filesystem::path& file) {
 cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
   cv::Mat image = Read(file);
   if (image.type() != CV_16UC1) Refuse(file, image, "a 16-bit single-channel depth image");
+  // The largest value says that a measurement is out of range, or that there is none.
+  image.setTo(0, image == std::numeric_limits<uint16_t>::max());
   return image;
 }
 

@@ -16,7 +16,8 @@ cv::Mat1b ReadGrayImage(const std::filesystem::path& file);
 /// 8-bit colour image, channels B, G, R. A grey file is repeated in all channels; alpha is dropped.
 cv::Mat3b ReadColorImage(const std::filesystem::path& file);
 
-/// 16-bit single-channel image.
+/// 16-bit single-channel image; 0: no return. The largest value, 65535, becomes 0: it is where the
+/// numbers end, and what some drivers write for no return.
 cv::Mat1w ReadDepthImage(const std::filesystem::path& file);
 
 /// Writes a PNG file that appears by rename. Throws InputError if it cannot be written.

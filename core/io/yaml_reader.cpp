@@ -8,27 +8,56 @@
 #include <set>
 
 #include "core/io/input_file.h"
+#include "core/io/utf8.h"
 
 namespace fenestra {
 namespace {
 
 constexpr uintmax_t kLargestFile = 4u << 20;
 
-// OpenCV's FileStorage starts its files with "%YAML:1.0", which is not a YAML directive. It
+// OpenCV's FileStorage starts its documents with "%YAML:1.0", which is not a YAML directive. It
 // becomes a comment of the same length, so that positions stay true.
-std::string WithoutOpenCvDirective(std::string text) {
-  if (text.starts_with("%YAML:")) text[0] = '#';
+std::string WithoutOpenCvDirectives(std::string text) {
+  const std::string directive = "%YAML:";
+  for (size_t at = text.find(directive); at != std::string::npos; at = text.find(directive, at)) {
+    text[at] = at == 0 || text[at - 1] == '\n' ? '#' : text[at];
+    ++at;
+  }
   return text;
 }
 
 std::optional<double> ParseNumber(const std::string& text) {
   const char* first = text.data();
   const char* last = first + text.size();
-  if (first != last && *first == '+') ++first;
+  if (last - first > 1 && *first == '+' && first[1] != '-') ++first;
   double value = 0.0;
   const auto [end, error] = std::from_chars(first, last, value);
   if (error != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+// Of the byte at `offset`, with a message.
+InputFault FaultAt(const std::string& source, const std::string& text, size_t offset,
+                   std::string message) {
+  const auto line = std::count(text.begin(), text.begin() + static_cast<ptrdiff_t>(offset), '\n');
+  const size_t line_start = offset == 0 ? 0 : text.rfind('\n', offset - 1) + 1;  // npos + 1 is 0
+  return {source, static_cast<int>(line) + 1, static_cast<int>(offset - line_start) + 1,
+          std::move(message)};
+}
+
+// Of YAML, in which JSON is contained.
+std::optional<InputFault> NotText(const std::string& text, const std::string& source) {
+  if (const size_t nul = text.find('\0'); nul != std::string::npos) {
+    return FaultAt(source, text, nul, "not a text file: it contains a NUL byte");
+  }
+  if (const auto bad = FirstNotUtf8(text)) {
+    return FaultAt(source, text, *bad,
+                   fmt::format("not UTF-8 text: the byte 0x{:02x} is out of place; save the file "
+                               "as UTF-8",
+                               static_cast<unsigned char>(text[*bad])));
+  }
+  if (text.starts_with("<?xml")) return InputFault{source, 1, 1, "XML; YAML and JSON are read"};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -38,15 +67,16 @@ YamlReader::YamlReader(std::string text, std::string source)
   const bool blank =
       std::all_of(text_.begin(), text_.end(), [](unsigned char c) { return std::isspace(c) != 0; });
   if (blank) throw InputError(source_, "the file is empty");
-  const size_t nul = text_.find('\0');
-  if (nul != std::string::npos) {
-    const auto line = std::count(text_.begin(), text_.begin() + static_cast<ptrdiff_t>(nul), '\n');
-    const size_t line_start = text_.rfind('\n', nul) + 1;  // npos + 1 is 0
-    throw InputError({{source_, static_cast<int>(line) + 1, static_cast<int>(nul - line_start) + 1,
-                       "not a text file: it contains a NUL byte"}});
-  }
+  if (const auto fault = NotText(text_, source_)) throw InputError({*fault});
   try {
-    root_ = YAML::Load(WithoutOpenCvDirective(text_));
+    const std::vector<YAML::Node> documents = YAML::LoadAll(WithoutOpenCvDirectives(text_));
+    if (documents.size() > 1) {
+      const YAML::Mark mark = documents[1].Mark();
+      throw InputError({{source_, mark.line + 1, mark.column + 1,
+                         "more than one document: what follows the line '---' or '...' would not "
+                         "be read"}});
+    }
+    if (!documents.empty()) root_ = documents.front();
   } catch (const YAML::Exception& error) {
     throw InputError(
         {{source_, error.mark.line + 1, error.mark.column + 1, "not valid YAML: " + error.msg}});

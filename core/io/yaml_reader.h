@@ -18,8 +18,9 @@ namespace fenestra {
 /// nullopt for what they have noted as a fault.
 class YamlReader {
  public:
-  /// Reads a file of at most 4 MiB. Throws InputError if it is missing, larger, empty, not text,
-  /// or not YAML. Accepts the "%YAML:1.0" first line of OpenCV's FileStorage.
+  /// Reads a file of at most 4 MiB. Throws InputError if it is missing, larger, empty, not UTF-8
+  /// text, not YAML, or of more than one document. Accepts the "%YAML:1.0" first line of OpenCV's
+  /// FileStorage.
   static YamlReader FromFile(const std::filesystem::path& file);
   static YamlReader FromText(const std::string& text, const std::string& source);
 

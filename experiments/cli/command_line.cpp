@@ -27,6 +27,35 @@ std::string FaultUnlessPositive(const std::string& text) {
   return fmt::format("'{}' is not a positive number", text);
 }
 
+// CLI11 takes a word in brackets for a list wherever several values may stand, so that a folder
+// '[L]' would be L. A byte in front of the bracket hides it until the values are read.
+constexpr char kHidesBracket = '\x1f';
+
+// The words of the command line in the order in which CLI11 takes them, the last one first.
+std::vector<std::string> HiddenBrackets(int argc, char** argv) {
+  std::vector<std::string> words;
+  for (int i = argc - 1; i > 0; --i) {
+    std::string& word = words.emplace_back(argv[i]);
+    const size_t value = word.starts_with("--") ? word.find('=') + 1 : 0;  // npos + 1 is 0
+    if (word.substr(value).starts_with('[')) word.insert(value, 1, kHidesBracket);
+  }
+  return words;
+}
+
+std::string WithBrackets(std::string text) {
+  std::erase(text, kHidesBracket);
+  return text;
+}
+
+CLI::Option* ShowingBrackets(CLI::Option* option) {
+  return option->transform(CLI::Validator(
+      [](std::string& text) {
+        text = WithBrackets(text);
+        return std::string();
+      },
+      ""));
+}
+
 // The innermost command that was named on the command line.
 const CLI::App* Innermost(const CLI::App* app) {
   const auto named = app->get_subcommands();
@@ -52,10 +81,11 @@ std::vector<std::string> KnownCommands(const CLI::App& app) {
 // What is wrong with the command line, with a hint for every word that is unknown.
 int ReportParseError(const CLI::App& program, const CLI::ParseError& error) {
   const CLI::App* app = Innermost(&program);
-  const std::vector<std::string> unknown = app->remaining(true);
+  const std::vector<std::string> unknown = program.remaining(true);
   const auto is_flag = [](const std::string& word) { return word.starts_with("-"); };
   const bool flags = std::any_of(unknown.begin(), unknown.end(), is_flag);
-  for (const std::string& word : unknown) {
+  for (const std::string& hidden : unknown) {
+    const std::string word = WithBrackets(hidden);
     const bool flag = is_flag(word);
     if (flags && !flag) continue;  // Most likely the value of an unknown option.
     const std::vector<std::string> known = flag ? KnownFlags(*app) : KnownCommands(*app);
@@ -130,13 +160,14 @@ void Command::Footer(const std::string& text) {
 
 template <class Value>
 Option Command::AddOption(const std::string& name, Value& value, const std::string& help) {
-  return Option(app_->add_option(name, value, help));
+  return Option(ShowingBrackets(app_->add_option(name, value, help)));
 }
 
 template <class Value, class Choice>
 Option Command::AddChoice(const std::string& name, Value& value,
                           const std::map<std::string, Choice>& choices, const std::string& help) {
-  return Option(app_->add_option(name, value, help)->transform(CLI::CheckedTransformer(choices)));
+  return Option(ShowingBrackets(
+      app_->add_option(name, value, help)->transform(CLI::CheckedTransformer(choices))));
 }
 
 Option Command::AddFlag(const std::string& name, bool& value, const std::string& help) {
@@ -175,9 +206,10 @@ void CommandLineParser::SetVersion(std::function<std::string()> version) {
 
 int CommandLineParser::Run(int argc, char** argv) {
   try {
-    app_->parse(argc, argv);
+    app_->parse(HiddenBrackets(argc, argv));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    const bool asks_for_help = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    if (asks_for_help && app_->remaining(true).empty()) {
       return app_->exit(error);  // --help, --version
     }
     return ReportParseError(*app_, error);

@@ -3,8 +3,10 @@
 #include <filesystem>
 
 #include "core/detection/detection_json.h"
+#include "core/detection/observation.h"
 #include "core/geometry/calibration.h"
-#include "core/io/image_io.h"
+#include "core/geometry/calibration_entries.h"
+#include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/trial_files/trial_files.h"
@@ -38,18 +40,36 @@ void Detect(const DetectArguments& arguments, const Observation& observation,
 }
 
 void DetectStereo(const DetectArguments& arguments) {
-  const StereoCalibration calibration = ReadStereoCalibration(arguments.calibration);
-  const StereoObservation observation{ReadGrayImage(arguments.left),
-                                      ReadGrayImage(arguments.right)};
+  const auto [observation, calibration] = ReadObservation({.sensor = SensorKind::kStereo,
+                                                           .left = arguments.left,
+                                                           .right = arguments.right,
+                                                           .color = {},
+                                                           .depth = {},
+                                                           .calibration = arguments.calibration});
   Detect(arguments, observation, calibration, SensorKind::kStereo);
 }
 
 void DetectRgbd(const DetectArguments& arguments) {
-  RgbdCalibration calibration = ReadRgbdCalibration(arguments.calibration);
-  if (arguments.depth_scale > 0.0) calibration.depth_unit_m = 1.0 / arguments.depth_scale;
-  const RgbdObservation observation{ReadColorImage(arguments.color),
-                                    {ReadDepthImage(arguments.depth), calibration.depth_unit_m}};
-  Detect(arguments, observation, calibration, SensorKind::kRgbd);
+  RecordedObservation recorded = ReadObservation({.sensor = SensorKind::kRgbd,
+                                                  .left = {},
+                                                  .right = {},
+                                                  .color = arguments.color,
+                                                  .depth = arguments.depth,
+                                                  .calibration = arguments.calibration});
+  if (arguments.depth_scale > 0.0) {
+    const double unit_m = 1.0 / arguments.depth_scale;
+    if (const auto objection = DepthUnitObjection(unit_m)) {
+      throw InputError("--depth-scale",
+                       fmt::format("{:g} units per metre: {}. Other programs call metres per unit "
+                                   "the scale: 0.001 would be 1000 here",
+                                   arguments.depth_scale, *objection));
+    }
+    std::get<RgbdCalibration>(recorded.calibration).depth_unit_m = unit_m;
+    std::get<RgbdObservation>(recorded.observation).depth.unit_m = unit_m;
+  } else {
+    NoteAssumedDepthUnit(arguments.calibration);
+  }
+  Detect(arguments, recorded.observation, recorded.calibration, SensorKind::kRgbd);
 }
 
 void AddCommonOptions(Command command, DetectArguments& arguments,

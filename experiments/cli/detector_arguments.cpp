@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/geometry/calibration_entries.h"
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
@@ -112,6 +113,12 @@ DetectorChoice ChooseDetector(const DetectorArguments& arguments, SensorKind sen
     choice.process->time_limit_s = *arguments.time_limit_s;
   }
   return choice;
+}
+
+void NoteAssumedDepthUnit(const std::filesystem::path& calibration) {
+  if (StatesDepthUnit(calibration)) return;
+  fmt::print(stderr, "note: {} states no depth_unit_m: units of 1 mm are assumed\n",
+             calibration.string());
 }
 
 void AddPluginOption(Command command, std::vector<std::filesystem::path>& plugins) {

@@ -29,6 +29,10 @@ void AddDetectorOptions(Command command, DetectorArguments& arguments);
 /// work on the sensor or has no such option.
 DetectorChoice ChooseDetector(const DetectorArguments& arguments, SensorKind sensor);
 
+/// Notes on standard error that the unit of 1 mm is assumed, where an RGB-D calibration states
+/// none.
+void NoteAssumedDepthUnit(const std::filesystem::path& calibration);
+
 /// --plugin LIBRARY, as often as one likes.
 void AddPluginOption(Command command, std::vector<std::filesystem::path>& plugins);
 

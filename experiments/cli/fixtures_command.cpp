@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "core/io/file_name.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
@@ -38,7 +39,8 @@ struct FixtureArguments {
 
 bool IsResult(const fs::path& path) {
   std::error_code error;
-  return path.extension() == ".sqlite" || fs::is_regular_file(path / ResultStore::kFileName, error);
+  return LowerExtension(path) == ".sqlite" ||
+         fs::is_regular_file(path / ResultStore::kFileName, error);
 }
 
 void ReadStudyInto(FixtureOrder& order, const std::string& study) {

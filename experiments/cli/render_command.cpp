@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/geometry/pose.h"
+#include "core/io/file_name.h"
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
@@ -38,7 +39,8 @@ struct RenderArguments {
 };
 
 bool IsSceneFile(const std::filesystem::path& file) {
-  return file.extension() == ".gltf" || file.extension() == ".glb";
+  const std::string extension = LowerExtension(file);
+  return extension == ".gltf" || extension == ".glb";
 }
 
 void RenderTrial(const RenderArguments& arguments) {

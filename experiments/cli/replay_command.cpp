@@ -70,7 +70,8 @@ int Replay(const ReplayArguments& arguments) {
   }
   if (!same) {
     fmt::print(
-        "The numbers differ from the recorded ones: another version, processor or library?\n");
+        "The numbers differ from the recorded ones: another version, processor, library "
+        "or folder?\n");
     return kFailure;
   }
   fmt::print("The numbers equal the recorded ones to the last bit.\n");

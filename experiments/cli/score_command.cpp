@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "core/io/input_error.h"
 #include "experiments/cli/commands.h"
@@ -58,6 +59,13 @@ void CheckLabels(const SequenceRun& run) {
   if (twice != labels.end()) throw InputError(*twice, "stands twice among the detectors");
 }
 
+void NoteAssumedDepthUnits(const Sequence& sequence) {
+  if (sequence.sensor != SensorKind::kRgbd) return;
+  std::set<std::filesystem::path> calibrations;
+  for (const SequenceFrame& frame : sequence.frames) calibrations.insert(frame.files.calibration);
+  for (const std::filesystem::path& file : calibrations) NoteAssumedDepthUnit(file);
+}
+
 void Score(const ScoreArguments& arguments) {
   LoadPlugins(arguments.plugins);
   SequenceRun run{.sequence = ReadSequence(arguments.sequence),
@@ -71,6 +79,7 @@ void Score(const ScoreArguments& arguments) {
   }
   CheckLabels(run);
   if (run.out.empty()) run.out = std::filesystem::path("results") / run.sequence.name;
+  NoteAssumedDepthUnits(run.sequence);
   const std::vector<CellSummary> summaries = ScoreSequence(run);
   fmt::print("{}\nTables and rows are in {}\n", SummaryForTerminal(summaries), run.out.string());
 }

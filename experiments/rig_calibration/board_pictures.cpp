@@ -11,8 +11,10 @@
 #include <optional>
 
 #include "core/io/faults.h"
+#include "core/io/file_name.h"
 #include "core/io/image_io.h"
 #include "vision/calibration/board_finder.h"
+#include "vision/stereo/rectification.h"
 
 namespace fenestra {
 namespace {
@@ -47,6 +49,8 @@ std::vector<std::string> FilesIn(const std::string& folder_or_pattern) {
   std::vector<std::string> files;
   try {
     cv::glob(folder_or_pattern, files);
+    const bool means_hidden = IsHidden(folder_or_pattern) && !fs::is_directory(folder_or_pattern);
+    if (!means_hidden) std::erase_if(files, IsHidden);
   } catch (const cv::Exception&) {
     files.clear();
   }
@@ -88,7 +92,8 @@ std::optional<std::string> WrongPair(const std::vector<PicturePair>& pairs) {
   return std::nullopt;
 }
 
-// A baseline that is none, or that points to the wrong side.
+// A baseline that is none, or that points to the wrong side; and whatever else would keep detectors
+// from rectifying the pair, one camera above the other for instance.
 void CheckBaseline(const StereoCalibrationResult& result) {
   const Eigen::Vector3d t_RL = result.calibration.X_RL.translation();
   const double deviation_m = std::sqrt(result.covariance.diagonal().tail<3>().sum());
@@ -103,6 +108,7 @@ void CheckBaseline(const StereoCalibrationResult& result) {
                      "the right camera stands to the left of the left one: --left and --right are "
                      "swapped");
   }
+  const StereoRectification possible(result.calibration, 0.0);
 }
 
 cv::Mat1b ReadBoardPicture(const fs::path& file) {
@@ -166,9 +172,11 @@ StereoCalibrationResult CalibrateFromPictures(const std::vector<PicturePair>& pa
         const cv::Mat1b picture = ReadBoardPicture(file);
         if (size.empty()) size = picture.size();
         if (picture.size() != size) {
-          throw InputError(file.string(),
-                           fmt::format("{} x {} px, but the first picture has {} x {}",
-                                       picture.cols, picture.rows, size.width, size.height));
+          throw InputError(
+              file.string(),
+              fmt::format("{} x {} px, but the first picture has {} x {}: both cameras "
+                          "of a pair must deliver images of one size",
+                          picture.cols, picture.rows, size.width, size.height));
         }
         BoardSighting sighting = FindBoard(picture, board);
         if (auto* none = std::get_if<BoardNotFound>(&sighting)) {

@@ -88,7 +88,16 @@ std::vector<ReplayedRow> Replay(const std::filesystem::path& results, int cell, 
     WritePictures(folder / "pictures", finished);
     WriteTrialFiles(folder, finished.runner, finished.simulated);
   });
-  for (ReplayedRow& row : rows) row.differences = Differences(row.recorded, row.repeated);
+  const StoreMetadata metadata = store.Metadata();
+  for (ReplayedRow& row : rows) {
+    row.differences = Differences(row.recorded, row.repeated);
+    if (row.differences.empty() || row.repeated.score.reason != "start") continue;
+    if (const auto started_in = metadata.find("started_in"); started_in != metadata.end()) {
+      row.differences.push_back(
+          fmt::format("folder from which the detector is started: recorded '{}', now '{}'",
+                      started_in->second, std::filesystem::current_path().string()));
+    }
+  }
   return rows;
 }
 

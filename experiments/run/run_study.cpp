@@ -30,7 +30,8 @@ StoreMetadata MetadataOf(const StudyRun& run) {
                             {"name", run.study.name},
                             {"description", run.study.description},
                             {"seed", std::to_string(run.study.seed)},
-                            {"shard", run.shard.ToString()}};
+                            {"shard", run.shard.ToString()},
+                            {"started_in", std::filesystem::current_path().string()}};
   AddTo(metadata, IdentityOf(run.study));
   return metadata;
 }

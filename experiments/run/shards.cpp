@@ -164,6 +164,13 @@ void CopyPictures(const std::vector<ShardResult>& shards, const OutputPath& out)
   }
 }
 
+// Of a folder in sbatch's --output, where % begins a pattern.
+std::string WithoutPatterns(const std::string& folder) {
+  std::string literal;
+  for (const char c : folder) literal += c == '%' ? "%%" : std::string(1, c);
+  return literal;
+}
+
 // sbatch reads quotes in its directives as a shell does.
 std::string Header(const SlurmSubmission& submission, const std::string& log) {
   std::string text = fmt::format(
@@ -172,7 +179,8 @@ std::string Header(const SlurmSubmission& submission, const std::string& log) {
       "#SBATCH --requeue\n"
       "#SBATCH --open-mode=append\n"
       "#SBATCH --output={}\n",
-      submission.name, ShellQuoted((submission.out / "slurm" / log).string()));
+      submission.name,
+      ShellQuoted(WithoutPatterns((submission.out / "slurm").string()) + "/" + log));
   for (const std::string& option : submission.sbatch_options) {
     text += fmt::format("#SBATCH {}\n", option);
   }

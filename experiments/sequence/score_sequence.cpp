@@ -28,13 +28,14 @@ class SequenceDetector {
 
   TrialRecord Try(const SequenceFrame& frame, const RecordedObservation& recorded) {
     StageLog log(SteadyClock());
-    const auto outcome = DetectionOrCrash([&] {
+    const auto detect = [&] {
       if (!detector_ || !(calibration_ == recorded.calibration)) {
         detector_ = maker_->Make(choice_, recorded.calibration);
         calibration_ = recorded.calibration;
       }
       return detector_->Detect(recorded.observation, log);
-    });
+    };
+    const auto outcome = DetectionOrCrash(detect, DetectorMaker::IsOwn(choice_));
     log.End();
     return RecordOf(frame, choice_.label, outcome, log.times());
   }

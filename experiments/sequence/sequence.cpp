@@ -8,7 +8,8 @@
 namespace fenestra {
 namespace {
 
-constexpr double kLargest_m = 1e4;
+constexpr double kFarthest_m = 1e4;
+constexpr double kLargestSide_m = 100.0;
 
 // An undefined node, and a fault, where the key is missing.
 YAML::Node Required(YamlReader& reader, const YAML::Node& node, const std::string& key) {
@@ -21,9 +22,9 @@ double ReadSide(YamlReader& reader, const YAML::Node& node, const std::string& k
   const YAML::Node side = Required(reader, node, key);
   if (!side.IsDefined()) return 1.0;
   const double side_m = reader.Number(side, key).value_or(1.0);
-  if (!(side_m > 0.0 && side_m <= kLargest_m)) {
-    reader.AddFault(
-        side, fmt::format("{} must be above 0 and at most {}, not {}", key, kLargest_m, side_m));
+  if (!(side_m > 0.0 && side_m <= kLargestSide_m)) {
+    reader.AddFault(side, fmt::format("{} must be above 0 and at most {} (metres), not {}", key,
+                                      kLargestSide_m, side_m));
   }
   return side_m;
 }
@@ -34,8 +35,8 @@ WindowTruth ReadWindow(YamlReader& reader, const YAML::Node& node) {
   if (centroid.IsDefined()) {
     const auto numbers = reader.Numbers(centroid, "centroid_m", 3);
     if (numbers) window.p_CO = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
-    if (numbers && !(window.p_CO.norm() <= kLargest_m)) {
-      reader.AddFault(centroid, fmt::format("centroid_m lies farther away than {} m", kLargest_m));
+    if (numbers && !(window.p_CO.norm() <= kFarthest_m)) {
+      reader.AddFault(centroid, fmt::format("centroid_m lies farther away than {} m", kFarthest_m));
     }
   }
   window.width_m = ReadSide(reader, node, "width_m");
@@ -82,6 +83,7 @@ GroundTruth ReadSurveyedTruth(YamlReader& reader, const YAML::Node& node) {
                                       YamlReader::Describe(node)));
     return truth;
   }
+  const size_t before = reader.fault_count();
   reader.CheckKeys(node, "a truth", keys);
   truth.other_windows = ReadOthers(reader, node["other_windows"]);
   // Other windows alone: there is no target.
@@ -90,6 +92,12 @@ GroundTruth ReadSurveyedTruth(YamlReader& reader, const YAML::Node& node) {
   truth.in_view = true;
   if (const YAML::Node in_view = node["in_view"]; in_view.IsDefined()) {
     truth.in_view = reader.Boolean(in_view, "in_view").value_or(false);
+  }
+  if (truth.in_view && reader.fault_count() == before && !(truth.target->p_CO.z() > 0.0)) {
+    reader.AddFault(node["centroid_m"],
+                    fmt::format("centroid_m lies behind the camera: z points along the optical "
+                                "axis and must be above 0, not {}",
+                                truth.target->p_CO.z()));
   }
   return truth;
 }

@@ -56,17 +56,21 @@ std::optional<CalibrationWithCovariance> Read(const std::filesystem::path& file)
   }
 }
 
+// A variable that is empty or not an absolute path is passed over, as the XDG base directory
+// specification has it: the cache would stand wherever the program happens to be started.
+std::optional<std::filesystem::path> FolderIn(const char* variable) {
+  const char* value = std::getenv(variable);
+  if (value == nullptr || !std::filesystem::path(value).is_absolute()) return std::nullopt;
+  return value;
+}
+
 }  // namespace
 
 CalibrationCache CalibrationCache::OfUser() {
   if (BuildId().empty()) return {};
-  if (const char* own = std::getenv("FENESTRA_CACHE")) return CalibrationCache(own);
-  if (const char* xdg = std::getenv("XDG_CACHE_HOME")) {
-    return CalibrationCache(std::filesystem::path(xdg) / "fenestra");
-  }
-  if (const char* home = std::getenv("HOME")) {
-    return CalibrationCache(std::filesystem::path(home) / ".cache" / "fenestra");
-  }
+  if (const auto own = FolderIn("FENESTRA_CACHE")) return CalibrationCache(*own);
+  if (const auto xdg = FolderIn("XDG_CACHE_HOME")) return CalibrationCache(*xdg / "fenestra");
+  if (const auto home = FolderIn("HOME")) return CalibrationCache(*home / ".cache" / "fenestra");
   return {};
 }
 

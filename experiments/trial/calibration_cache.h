@@ -30,7 +30,8 @@ class CalibrationCache {
   explicit CalibrationCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// In $FENESTRA_CACHE, $XDG_CACHE_HOME/fenestra or ~/.cache/fenestra. None if there is no such
-  /// place or the program's build cannot be told from others.
+  /// place or the program's build cannot be told from others. A variable that is empty or not an
+  /// absolute path is passed over.
   static CalibrationCache OfUser();
 
   /// The calibration that belongs to `content`; `compute` makes it where it is not known. A folder

@@ -110,7 +110,8 @@ Attempt CellRunner::Try(size_t detector, const SimulatedTrial& simulated,
     const Detector& tested = own ? *own : *shared_detectors_[detector];
     return tested.Detect(simulated.observation, log);
   };
-  const std::variant<Detection, Crash> outcome = DetectionOrCrash(detect);
+  const std::variant<Detection, Crash> outcome =
+      DetectionOrCrash(detect, DetectorMaker::IsOwn(choice));
   log.End();
   TrialRecord record{.cell = cell_.index,
                      .trial = simulated.trial.index,

@@ -34,9 +34,19 @@ std::shared_ptr<ProgramPool> DetectorMaker::PoolOf(const DetectorChoice& choice)
   return pools_.back();
 }
 
+bool DetectorMaker::IsOwn(const DetectorChoice& choice) {
+  if (choice.process && !choice.process->command.empty()) return false;
+  const DetectorInfo* info = FindDetector(choice.name);
+  return info != nullptr && !info->isolate;  // Plugins are isolated by default, and they alone.
+}
+
 std::unique_ptr<Detector> DetectorMaker::Make(const DetectorChoice& choice,
                                               const SensorCalibration& calibration) {
-  if (!choice.process) return MakeDetector(choice.name, calibration, choice.options);
+  // Made here even if it is to run in another process, which could only answer that it failed.
+  if (!choice.process || IsOwn(choice)) {
+    auto detector = MakeDetector(choice.name, calibration, choice.options);
+    if (!choice.process) return detector;
+  }
   return std::make_unique<ExternalDetector>(PoolOf(choice), calibration);
 }
 

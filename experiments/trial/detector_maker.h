@@ -21,7 +21,11 @@ class DetectorMaker {
   explicit DetectorMaker(std::vector<std::string> serve_command = {})
       : serve_command_(std::move(serve_command)) {}
 
+  /// Whether the detector came with Fenestra, and not with a plugin or as a program.
+  static bool IsOwn(const DetectorChoice& choice);
+
   /// The choice must be one that a study reader made, and its sensor that of the calibration.
+  /// Throws InputError if one of Fenestra's own detectors refuses the calibration, isolated or not.
   std::unique_ptr<Detector> Make(const DetectorChoice& choice,
                                  const SensorCalibration& calibration);
 

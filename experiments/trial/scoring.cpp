@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/detection/detector.h"
+#include "core/io/input_error.h"
 #include "core/io/system_error.h"
 
 namespace fenestra {
@@ -75,9 +76,13 @@ Outcome OutcomeOf(const Answer& answer, const GroundTruth& truth) {
 
 }  // namespace
 
-std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect) {
+std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect,
+                                                bool own) {
   try {
     return detect();
+  } catch (const InputError& error) {
+    if (own) throw;
+    return Crash{"exception", error.what()};
   } catch (const DetectorFailure& failure) {
     return Crash{failure.kind(), failure.what()};
   } catch (const SystemError&) {

@@ -17,9 +17,12 @@ struct Crash {
 };
 
 /// The detection that `detect` returns, or a Crash: of the kind that a DetectorFailure names, or of
-/// kind "exception" for anything else that it throws but a SystemError, which is passed on: what the
-/// machine could not do is no fault of the detector.
-std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect);
+/// kind "exception" for anything else that it throws. Two kinds pass: a SystemError, since what the
+/// machine could not do is no fault of the detector, and an InputError of a detector that is `own`,
+/// one of Fenestra's: the calibration or the images are at fault then, and no figure of the detector
+/// would say so.
+std::variant<Detection, Crash> DetectionOrCrash(const std::function<Detection()>& detect,
+                                                bool own = false);
 
 /// A hit is at most this fraction of the window's side away from the truth. The side is the smaller
 /// of width and height: a drone that aims so far off centre keeps a quarter of the side to the

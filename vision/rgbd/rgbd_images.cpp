@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/geometry/calibration_entries.h"
 #include "core/io/faults.h"
 #include "core/io/input_error.h"
 #include "core/io/srgb.h"
@@ -50,9 +51,8 @@ const RgbdObservation& RgbdPart(const Observation& observation) {
 }
 
 void CheckDepthUnit(const RgbdCalibration& calibration) {
-  if (!(std::isfinite(calibration.depth_unit_m) && calibration.depth_unit_m > 0.0)) {
-    throw InputError("depth_unit_m",
-                     fmt::format("{} is not a positive number", calibration.depth_unit_m));
+  if (const auto objection = DepthUnitObjection(calibration.depth_unit_m)) {
+    throw InputError("depth_unit_m", *objection);
   }
 }
 

@@ -11,7 +11,7 @@ namespace fenestra {
 /// Returns the images of an RGB-D observation. Throws InputError for a stereo observation.
 const RgbdObservation& RgbdPart(const Observation& observation);
 
-/// Throws InputError unless the depth unit of a calibration is a positive number.
+/// Throws InputError for a calibration with a depth unit that DepthUnitObjection refuses.
 void CheckDepthUnit(const RgbdCalibration& calibration);
 
 /// Throws InputError with all faults if the image sizes or the depth unit are not those of the

@@ -8,6 +8,7 @@
 #include <span>
 #include <string_view>
 
+#include "core/io/file_name.h"
 #include "core/io/input_error.h"
 
 namespace fenestra::gltf {
@@ -164,7 +165,7 @@ Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   // The file's extension does not decide: a wrong one should not matter, and damaged magic bytes of
   // a .glb are reported as such.
-  if (text.starts_with("glTF") || file.extension() == ".glb") {
+  if (text.starts_with("glTF") || LowerExtension(file) == ".glb") {
     const GlbChunks chunks = SplitGlb(file, bytes);
     text = chunks.json;
     if (chunks.binary) document.binary_chunk.emplace(chunks.binary->begin(), chunks.binary->end());

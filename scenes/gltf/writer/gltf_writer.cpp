@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/io/file_name.h"
 #include "core/io/input_error.h"
 #include "core/io/temporary_files.h"
 #include "scenes/gltf/writer/material_writer.h"
@@ -37,7 +38,7 @@ tinygltf::Model ToModel(const GltfScene& gltf) {
 }  // namespace
 
 void WriteGltf(const OutputPath& file, const GltfScene& scene) {
-  const std::string extension = file.path().extension().string();
+  const std::string extension = LowerExtension(file.path());
   if (extension != ".gltf" && extension != ".glb") {
     throw InputError(file.path(),
                      fmt::format("a scene is written as .gltf or .glb, not as '{}'", extension));

@@ -61,5 +61,13 @@ TEST(ImageIoTest, DamagedMissingAndBoastfulFilesAreRefused) {
   }
 }
 
+TEST(ImageIoTest, TheEndOfTheNumbersIsNoReturn) {
+  const TemporaryFolder folder;
+  const cv::Mat1w written = (cv::Mat1w(1, 4) << 0, 1, 65534, 65535);
+  const cv::Mat1w read = (cv::Mat1w(1, 4) << 0, 1, 65534, 0);
+  WritePng(folder / "depth.png", written);
+  EXPECT_TRUE(SamePixels(ReadDepthImage(folder / "depth.png"), read));
+}
+
 }  // namespace
 }  // namespace fenestra

@@ -51,11 +51,12 @@ TEST(YamlReaderTest, UnknownAndRepeatedKeysAreFaults) {
 }
 
 TEST(YamlReaderTest, NumbersAreNeitherQuotedNorInfinite) {
-  YamlReader reader = YamlReader::FromText("[\"1\", .inf, 1e999, 0x10, 1.5m, +2]", "f");
-  for (size_t i = 0; i < 5; ++i) {
+  YamlReader reader =
+      YamlReader::FromText("[\"1\", .inf, 1e999, 0x10, 1.5m, +-5, ++5, +, +2]", "f");
+  for (size_t i = 0; i < 8; ++i) {
     EXPECT_FALSE(reader.Number(reader.root()[i], "x")) << i;
   }
-  EXPECT_EQ(reader.Number(reader.root()[5], "x"), 2.0);
+  EXPECT_EQ(reader.Number(reader.root()[8], "x"), 2.0);
 }
 
 TEST(YamlReaderTest, UnreadableFilesSayWhy) {
@@ -71,6 +72,36 @@ TEST(YamlReaderTest, UnreadableFilesSayWhy) {
   EXPECT_THAT(read(folder.Write("huge", std::string(5 << 20, '\0'))), HasSubstr("at most"));
   EXPECT_THAT(read(folder.Write("bad", "a: [1, 2\nb: 3\n")), HasSubstr("bad:2:"));
   EXPECT_THAT(read(folder.Write("deep", std::string(100000, '['))), HasSubstr("not valid YAML"));
+}
+
+TEST(YamlReaderTest, OneDocumentIsReadAndAnotherIsRefused) {
+  const auto read = [](const std::string& text) {
+    return FaultsOf([&] { YamlReader::FromText(text, "f"); });
+  };
+  for (const char* text : {"a: 1\n", "---\na: 1\n", "%YAML:1.0\n---\na: 1\n", "a: 1\n...\n",
+                           "# first\n---\na: |\n  --- no line of its own\n", "{\"a\": 1}"}) {
+    EXPECT_EQ(read(text), "no fault") << text;
+  }
+  EXPECT_THAT(read("a: 1\n---\nb: 2\n"), HasSubstr("f:3:1: more than one document"));
+  EXPECT_THAT(read("%YAML:1.0\n---\na: 1\n%YAML:1.0\n---\na: 2\n"),
+              HasSubstr("more than one document"));
+  EXPECT_THAT(read("a: 1\n...\nb: 2\n"), HasSubstr("more than one document"));
+  EXPECT_THAT(read("a: 1\n...\nnot YAML at all: [\n"), HasSubstr("not valid YAML"));
+}
+
+TEST(YamlReaderTest, OtherEncodingsAreRefusedWithTheirPlace) {
+  const auto read = [](const std::string& text) {
+    return FaultsOf([&] { YamlReader::FromText(text, "f"); });
+  };
+  EXPECT_EQ(read("a: \"ge\xc3\xb6"
+                 "ffnet\"\n"),
+            "no fault");
+  EXPECT_THAT(read("a: 1\nb: ge\xf6"
+                   "ffnet\n"),
+              HasSubstr("f:2:6: not UTF-8 text"));
+  EXPECT_THAT(read("\xff\xfe"
+                   "a"),
+              HasSubstr("f:1:1: not UTF-8 text"));
 }
 
 }  // namespace

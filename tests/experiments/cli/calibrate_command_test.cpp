@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <opencv2/core.hpp>
 
@@ -136,6 +137,8 @@ TEST(CalibrateCommandTest, WrongInputIsNamedAndLeavesNothing) {
            {corners("9x9"), "upside down"},
            {square("-30"), "'-30' is not a positive number"},
            {square("0"), "'0' is not a positive number"},
+           {square("0.03"), "squares must have sides of 1 to 1000 mm, not of 0.03 mm"},
+           {square("30000"), "squares must have sides of 1 to 1000 mm"},
            {square("inf"), "'inf' is not a positive number"},
            {square("thirty"), "--square-mm"},
            {Calibrate("left*.jpg", "right*.jpg", "--corners 9x6 --square-mm 30 --charuco" + to),
@@ -182,6 +185,24 @@ TEST(CalibrateCommandTest, AFileInTheFoldersPlaceIsKept) {
   EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
   EXPECT_THAT(outcome.text, StartsWith(file.string()));
   EXPECT_EQ(ReadFile(file), "mine");
+}
+
+TEST(CalibrateCommandTest, ABracketIsPartOfAName) {
+  const TemporaryFolder folder;
+  for (const char* side : {"left", "right"}) {
+    std::filesystem::create_directory(folder / (std::string("[") + side + "]"));
+    for (const char* number : {"01", "03", "05", "07", "09", "12"}) {
+      const std::string name = fmt::format("{}{}.jpg", side, number);
+      std::filesystem::copy(kPictures + name, folder / fmt::format("[{}]", side) / name);
+    }
+  }
+  // Given as a user in that folder would, with and without a '='.
+  const std::string run = fmt::format(
+      "cd {} && {} calibrate stereo --left '[left]' "
+      "--right='[right]' --corners 9x6 --square-mm 30 --out '[rig]'",
+      folder.path().string(), FENESTRA_PROGRAM);
+  ASSERT_EQ(std::system((run + " > /dev/null").c_str()), 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "[rig]/stereo.yaml"));
 }
 
 }  // namespace

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/experiments/cli/program.h"
 #include "tests/support/temporary_folder.h"
@@ -169,6 +172,92 @@ TEST(CommandLineTest, DetectRefusesWhatItCannotUse) {
   EXPECT_EQ(Fenestra("detect rgbd --color a.png").exit_code, 2);
   EXPECT_EQ(Fenestra("render paper --cell 9999 --out " + (folder / "x").string()).exit_code, 2);
   EXPECT_TRUE(folder.IsEmpty());
+}
+
+TEST(CommandLineTest, HelpForAnUnknownWordIsAnError) {
+  for (const auto& [command, hint] : std::vector<std::pair<std::string, std::string>>{
+           {"rnu --help", "Did you mean 'run'?"},
+           {"--help rnu", "Did you mean 'run'?"},
+           {"rnu --version", "Did you mean 'run'?"},
+           {"detect strreo --help", "Did you mean 'stereo'?"},
+           {"run --job 2 --help", "Did you mean '--jobs'?"},
+           {"detect '[x]' --help", "'[x]'"}}) {
+    const ProgramOutput outcome = Fenestra(command);
+    EXPECT_EQ(outcome.exit_code, 2) << command << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr(hint)) << command;
+  }
+  EXPECT_EQ(Fenestra("run paper --help").exit_code, 0);
+}
+
+TEST(CommandLineTest, BracketsStayWhereListsAreTaken) {
+  const TemporaryFolder folder;
+  const ProgramOutput merge = Fenestra("merge '[a]' '[b,c]' --out " + (folder / "o").string());
+  EXPECT_EQ(merge.exit_code, 2);
+  EXPECT_THAT(merge.text, HasSubstr("[a]"));
+  EXPECT_THAT(Fenestra("score '[s].yaml'").text, HasSubstr("[s].yaml: no such file"));
+  EXPECT_THAT(Fenestra("pool '[r]'").text, HasSubstr("[r]"));
+}
+
+TEST(CommandLineTest, ScenesMayHaveExtensionsInCapitals) {
+  const TemporaryFolder folder;
+  const std::string study = folder.Write("TINY.YAML", kStudy).string();
+  const std::string scene = (folder / "SCENE.GLB").string();
+  ASSERT_EQ(Fenestra("export " + study + " --out " + scene).exit_code, 0);
+  const ProgramOutput render =
+      Fenestra("render " + scene + " --camera depth --out " + (folder / "views").string());
+  EXPECT_EQ(render.exit_code, 0) << render.text;
+}
+
+// One frame as files, and what becomes of them.
+class DetectInputTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const std::string study = folder_.Write("tiny.yaml", kStudy).string();
+    ASSERT_EQ(Fenestra("render " + study + " --out " + files_).exit_code, 0);
+  }
+
+  ProgramOutput Detect(const std::string& calibration, const std::string& more = "") const {
+    return Fenestra("detect rgbd --color " + files_ + "/color.png --depth " + files_ +
+                    "/depth.png --calibration " + calibration + " " + more);
+  }
+
+  TemporaryFolder folder_;
+  std::string files_ = (folder_ / "trial").string();
+};
+
+TEST_F(DetectInputTest, ADepthScaleIsInUnitsPerMetre) {
+  const std::string own = files_ + "/calibration.yaml";
+  EXPECT_EQ(Detect(own, "--depth-scale 1000").exit_code, 0);
+  for (const char* scale : {"0.001", "10", "1e9"}) {
+    const ProgramOutput outcome = Detect(own, std::string("--depth-scale ") + scale);
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.text;
+    EXPECT_THAT(outcome.text, HasSubstr("a unit of depth must be")) << scale;
+  }
+}
+
+TEST_F(DetectInputTest, AnAssumedDepthUnitIsNoted) {
+  std::string text = ReadFile(files_ + "/calibration.yaml");
+  text.resize(text.find("depth_unit_m"));
+  const std::string silent = folder_.Write("silent.yaml", text).string();
+  EXPECT_THAT(Detect(silent).text, HasSubstr("silent.yaml states no depth_unit_m: units of 1 mm"));
+  EXPECT_THAT(Detect(silent, "--depth-scale 1000").text, Not(HasSubstr("note")));
+  EXPECT_THAT(Detect(files_ + "/calibration.yaml").text, Not(HasSubstr("note")));
+}
+
+TEST(CommandLineTest, AReplayElsewhereNamesTheFolderInWhichItsProgramIsFound) {
+  const TemporaryFolder folder;
+  folder.Write("mine", "#!/bin/sh\nexec " FENESTRA_PROGRAM " serve edge-stereo\n");
+  std::filesystem::permissions(folder / "mine", std::filesystem::perms::all);
+  folder.Write("mine.yaml",
+               "name: mine\nrepetitions: 1\nsensors: [stereo]\nfactors: {distance_m: 2}\n"
+               "detectors:\n  - {name: mine, command: [./mine], sensor: stereo}\n");
+  const std::string in = folder.path().string();
+  const std::string run = "cd " + in + " && " FENESTRA_PROGRAM " run mine.yaml --out out";
+  ASSERT_EQ(std::system((run + " > /dev/null 2>&1").c_str()), 0);
+  const ProgramOutput elsewhere = Fenestra("replay " + in + "/out 0/0");
+  EXPECT_EQ(elsewhere.exit_code, 3);
+  EXPECT_THAT(elsewhere.text,
+              HasSubstr("folder from which the detector is started: recorded '" + in + "'"));
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
 #include "core/io/input_error.h"
 #include "tests/support/temporary_folder.h"
 
@@ -143,6 +146,53 @@ TEST(BoardPicturesTest, PicturesOfTwoSizesAreRefusedByName) {
                                       {.square_m = 0.03}, {});
               }),
               ::testing::AllOf(HasSubstr("README.md"), HasSubstr("nothing.png")));
+}
+
+TEST(BoardPicturesTest, HiddenFilesAreTakenOnlyWhereTheyAreMeant) {
+  const TemporaryFolder folder;
+  for (const char* name : {"left1.png", "._left1.png", ".hidden.png", ".DS_Store"}) {
+    folder.Write(name, "");
+  }
+  const std::string in = folder.path().string();
+  EXPECT_THAT(Names(ImageFiles({in})), ElementsAre("left1.png"));
+  EXPECT_THAT(Names(ImageFiles({in + "/*.png"})), ElementsAre("left1.png"));
+  EXPECT_THAT(Names(ImageFiles({in + "/.h*.png"})), ElementsAre(".hidden.png"));
+  EXPECT_THAT(Names(ImageFiles({in + "/.hidden.png"})), ElementsAre(".hidden.png"));
+  // In a folder whose own name begins with a dot, the others.
+  std::filesystem::create_directory(folder / ".views");
+  folder.Write(".views/left1.PNG", "");
+  folder.Write(".views/._left1.PNG", "");
+  EXPECT_THAT(Names(ImageFiles({in + "/.views"})), ElementsAre("left1.PNG"));
+}
+
+TEST(BoardPicturesTest, EndingsInCapitalLettersAreThoseOfImages) {
+  const TemporaryFolder folder;
+  for (const char* name : {"1.JPG", "2.Jpeg", "3.PNG", "4.TIF", "5.PGM", "6.TXT"}) {
+    folder.Write(name, "");
+  }
+  EXPECT_THAT(Names(ImageFiles({folder.path().string()})),
+              ElementsAre("1.JPG", "2.Jpeg", "3.PNG", "4.TIF", "5.PGM"));
+}
+
+// A pair that stands one above the other: the same pictures, turned by 90 degrees.
+TEST(BoardPicturesTest, ARigThatNoDetectorTakesIsRefused) {
+  const TemporaryFolder folder;
+  const std::string data = FENESTRA_SOURCE_DIR "/tests/data/stereo-calibration/";
+  std::vector<PicturePair> pairs;
+  for (const char* number : {"01", "03", "05", "07", "09", "12"}) {
+    const auto turned = [&](const std::string& side) {
+      cv::Mat picture = cv::imread(data + side + number + ".jpg", cv::IMREAD_GRAYSCALE);
+      cv::rotate(picture, picture, cv::ROTATE_90_CLOCKWISE);
+      const auto file = folder / (side + number + ".png");
+      cv::imwrite(file.string(), picture);
+      return file;
+    };
+    pairs.push_back({turned("left"), turned("right")});
+  }
+  const CalibrationBoard board{
+      .kind = BoardKind::kChessboard, .columns = 10, .rows = 7, .square_m = 0.03, .marker_m = 0.0};
+  EXPECT_THAT(Complaint([&] { CalibrateFromPictures(pairs, board, {}); }),
+              HasSubstr("must stand to the right of the left one"));
 }
 
 }  // namespace

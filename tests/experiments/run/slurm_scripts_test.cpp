@@ -62,5 +62,14 @@ TEST_F(SlurmScriptsTest, DirectivesComeFirst) {
   }
 }
 
+TEST_F(SlurmScriptsTest, AFolderWithAPercentSignIsNoPattern) {
+  submission_.out = "/out/50 % %j";
+  EXPECT_THAT(SlurmArrayScript(submission_),
+              HasSubstr("#SBATCH --output='/out/50 %% %%j/slurm/shard-%a.log'\n"));
+  EXPECT_THAT(SlurmMergeScript(submission_), HasSubstr("%%j/slurm/merge.log'\n"));
+  // In the commands the shell reads it as it is.
+  EXPECT_THAT(ArgumentsOf(SlurmMergeScript(submission_)), HasSubstr("<--out></out/50 % %j>"));
+}
+
 }  // namespace
 }  // namespace fenestra

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/geometry/calibration.h"
 #include "core/io/input_error.h"
@@ -135,6 +136,56 @@ TEST_F(RecordedSequenceTest, AnImageThatCannotBeReadIsNamedAndNothingIsWritten) 
     EXPECT_THAT(error.what(), HasSubstr("color.png"));
   }
   EXPECT_FALSE(fs::exists(folder_ / "scored"));
+}
+
+// A frame that the detectors refuse ends the command, as it ends `detect`: no row says "crashed".
+class UnfitSequenceTest : public ::testing::Test {
+ protected:
+  std::string Complaint(const std::string& detectors) {
+    const Sequence sequence = ReadSequence(folder_.Write(
+        "sequence.yaml",
+        "name: unfit\nsensor: stereo\ncalibration: stereo.yaml\ndetectors: " + detectors +
+            "\nframes:\n  - {left: l.png, right: r.png, truth: none}\n"));
+    const auto maker =
+        std::make_shared<DetectorMaker>(std::vector<std::string>{FENESTRA_PROGRAM, "serve"});
+    try {
+      ScoreSequence(
+          {.sequence = sequence, .made = {}, .out = folder_ / "scored", .detectors = maker});
+    } catch (const InputError& error) {
+      EXPECT_FALSE(fs::exists(folder_ / "scored"));
+      return error.what();
+    }
+    return "none";
+  }
+
+  void WritePair(const Pose& X_RL, const cv::Size& left, const cv::Size& right) {
+    const CameraModel camera = CameraModel::Pinhole(320, 240, 300.0);
+    folder_.Write("stereo.yaml", ToOpenCvYaml(StereoCalibration{camera, camera, X_RL}));
+    cv::imwrite((folder_ / "l.png").string(), cv::Mat1b(left, 128));
+    cv::imwrite((folder_ / "r.png").string(), cv::Mat1b(right, 128));
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(UnfitSequenceTest, ACalibrationThatADetectorRefusesIsNoCrash) {
+  const cv::Size size(320, 240);
+  for (const Eigen::Vector3d& p_RL : {Eigen::Vector3d(0.35, 0, 0), Eigen::Vector3d(0, -0.35, 0)}) {
+    WritePair(Pose::Translation(p_RL), size, size);
+    for (const char* detectors :
+         {"[edge-stereo]", "[paper-stereo]", "[{name: edge-stereo, isolate: true}]"}) {
+      EXPECT_THAT(Complaint(detectors), HasSubstr("must stand to the right")) << detectors;
+    }
+  }
+}
+
+TEST_F(UnfitSequenceTest, ImagesOfAnotherSizeThanTheCalibrationsAreNoCrash) {
+  const Pose X_RL = Pose::Translation({-0.35, 0, 0});
+  WritePair(X_RL, {160, 120}, {320, 240});
+  EXPECT_THAT(Complaint("[edge-stereo]"),
+              HasSubstr("l.png: is 160 x 120 px; the calibration is for 320 x 240 px"));
+  WritePair(X_RL, {320, 240}, {240, 320});
+  EXPECT_THAT(Complaint("[{name: paper-stereo, isolate: true}]"), HasSubstr("r.png: is 240 x 320"));
 }
 
 }  // namespace

@@ -82,5 +82,25 @@ TEST_F(SequenceReaderTest, FaultsAreReportedWithTheirPlace) {
   EXPECT_THAT(missing, HasSubstr("needs calibration"));
 }
 
+TEST_F(SequenceReaderTest, ATruthIsAheadOfTheCameraAndInMetres) {
+  const auto truth = [](const std::string& z, const std::string& width, const std::string& more) {
+    return "{centroid_m: [0, 0, " + z + "], width_m: " + width + ", height_m: 1" + more + "}";
+  };
+  EXPECT_THAT(Complaint(Text(truth("-2", "1", ""))), HasSubstr("behind the camera"));
+  EXPECT_THAT(Complaint(Text(truth("0", "1", ", in_view: true"))), HasSubstr("behind the camera"));
+  EXPECT_THAT(Complaint(Text(truth("2", "1000", ""))),
+              HasSubstr("width_m must be above 0 and at most 100"));
+  EXPECT_THAT(Complaint(Text("{other_windows: [" + truth("2", "900", "") + "]}")),
+              HasSubstr("width_m"));
+  // What is not in view may be behind the camera.
+  EXPECT_EQ(Complaint(Text(truth("-2", "1", ", in_view: false"))), "");
+  EXPECT_EQ(Complaint(Text(truth("2", "100", ""))), "");
+}
+
+TEST_F(SequenceReaderTest, ASecondDocumentIsRefused) {
+  EXPECT_THAT(Complaint(Text("none") + "---\n" + Text("none")),
+              HasSubstr("more than one document"));
+}
+
 }  // namespace
 }  // namespace fenestra

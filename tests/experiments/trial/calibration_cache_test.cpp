@@ -143,5 +143,23 @@ TEST(CalibrationCacheTest, WithoutAPlaceToKeepThemAllAreComputed) {
   EXPECT_TRUE(Ask(nowhere, "a rig\n").computed);
 }
 
+TEST(CalibrationCacheTest, VariablesThatNameNoPlaceArePassedOver) {
+  const TemporaryFolder folder;
+  const Environment home("HOME", folder.path().string());
+  for (const char* no_place : {"", "relative", "./relative"}) {
+    const Environment own("FENESTRA_CACHE", no_place);
+    const Environment xdg("XDG_CACHE_HOME", no_place);
+    Ask(CalibrationCache::OfUser(), std::string("a rig\n") + no_place);
+    EXPECT_FALSE(std::filesystem::exists("relative"));
+    EXPECT_FALSE(std::filesystem::exists("fenestra"));
+  }
+  EXPECT_EQ(FilesIn(folder / ".cache/fenestra"), 3u);
+  const Environment nowhere("HOME", "");
+  const Environment own("FENESTRA_CACHE", "");
+  const Environment xdg("XDG_CACHE_HOME", "");
+  Ask(CalibrationCache::OfUser(), "b rig\n");
+  EXPECT_TRUE(Ask(CalibrationCache::OfUser(), "b rig\n").computed);
+}
+
 }  // namespace
 }  // namespace fenestra

@@ -145,5 +145,25 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair{"{name: edge-stereo, time_limit_s: 3}", "no effect without isolate"},
         std::pair{"{name: edge-stereo, isolate: maybe}", "isolate must be true or false"}));
 
+TEST(DetectorMakerTest, ACalibrationThatADetectorRefusesEndsARun) {
+  const TemporaryFolder folder;
+  const auto maker =
+      std::make_shared<DetectorMaker>(std::vector<std::string>{FENESTRA_PROGRAM, "serve"});
+  // Of 640 px, so that the field of view is beyond NARF's; shared by the trials or drawn in each.
+  for (const char* focal : {"300", "{uniform: [290, 300]}"}) {
+    for (const char* detector : {"paper-rgbd", "{name: paper-rgbd, isolate: true}"}) {
+      const std::string text = std::string("name: wide\nrepetitions: 1\nsensors: [rgbd]\n") +
+                               "detectors: [" + detector + "]\nfactors:\n  distance_m: 2\n" +
+                               "  rgbd_color_focal_px: " + focal + "\n";
+      const StudyRun run{.study = ReadStudy(YamlReader::FromText(text, "wide.yaml"), Detectors()),
+                         .study_text = text,
+                         .out = folder / "out",
+                         .restart = true,
+                         .detectors = maker};
+      EXPECT_THROW(RunStudy(run), InputError) << detector << " " << focal;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fenestra

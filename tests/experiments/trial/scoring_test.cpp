@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
+#include "core/io/input_error.h"
 #include "tests/experiments/trial/record_examples.h"
 
 namespace fenestra {
@@ -140,6 +142,14 @@ TEST(Scoring, OutcomesReadBackFromTheirNames) {
     EXPECT_NE(std::string(OutcomeDefinition(outcome)), "");
   }
   EXPECT_EQ(ParseOutcome("Hit"), std::nullopt);
+}
+
+TEST(Scoring, AnInputErrorOfAnOwnDetectorPassesAndThatOfAnotherIsItsCrash) {
+  const auto refuse = []() -> Detection { throw InputError("left image", "is too small"); };
+  EXPECT_THROW(DetectionOrCrash(refuse, true), InputError);
+  EXPECT_EQ(std::get<Crash>(DetectionOrCrash(refuse)).detail, "left image: is too small");
+  const auto fail = []() -> Detection { throw std::out_of_range("vector"); };
+  EXPECT_EQ(std::get<Crash>(DetectionOrCrash(fail, true)).kind, "exception");
 }
 
 }  // namespace
