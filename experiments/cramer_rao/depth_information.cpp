@@ -6,14 +6,11 @@
 
 #include "sim/structured_light/block_evidence.h"
 #include "sim/structured_light/disparity.h"
-#include "sim/structured_light/dot_pattern.h"
 
 namespace fenestra {
 namespace {
 
 constexpr int kStride = 4;
-// Standard deviation of the pattern over a dot's peak.
-constexpr double kContrast = 1.0 / 3.0;
 
 CameraModel InfraredCamera(const StructuredLightOptions& o) {
   return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
@@ -87,7 +84,7 @@ DepthTheory::DepthTheory(const StructuredLightSensor& sensor)
       image_camera_(sensor.nominal().depth),
       rays_(InfraredCamera(options_).Scaled(1.0 / kStride)),
       block_px_(BlockArea(options_)),
-      pattern_mean_(SampledPattern(options_.infrared.dot_sigma_px).MomentsAt(0.0).mean),
+      response_(options_.infrared, rays_.camera(), {options_.projector_baseline_m, 0.0, 0.0}),
       focal_times_baseline_(DisparityRange::Of(options_.depth_focal_px, options_.depth_width_px,
                                                options_.projector_baseline_m,
                                                options_.disparity_step_px, options_.near_mode)
@@ -98,34 +95,28 @@ double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
   const ParametricDepthOptions& noise = options_.parametric;
   const double ambient_dn = std::min(light.ambient_dn, infrared.saturation_dn);
   const double dot_dn = std::min(light.dot_dn, infrared.saturation_dn - ambient_dn);
-  const double variance_dn2 = infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0 +
-                              infrared.shot_noise_dn * (pattern_mean_ * dot_dn + ambient_dn);
+  const double variance_dn2 =
+      response_.NoiseVariance(response_.pattern_mean() * dot_dn + ambient_dn);
   const double fixed_px2 = noise.fixed_disparity_noise_px * noise.fixed_disparity_noise_px;
+  const double flicker_px2 =
+      infrared.speckle_contrast > 0.0
+          ? fixed_px2 * std::pow(infrared.speckle_flicker / infrared.speckle_contrast, 2)
+          : 0.0;
   const double temporal_px2 = noise.temporal_disparity_noise_px *
                               noise.temporal_disparity_noise_px * variance_dn2 / (dot_dn * dot_dn);
   const double unit_px = focal_times_baseline_ / (z_m * z_m) * 1e-3;
   const double steps_px2 =
       (options_.disparity_step_px * options_.disparity_step_px + unit_px * unit_px) / 12.0;
-  return block_px_ * (fixed_px2 + temporal_px2 / options_.averaged_frames) +
+  return block_px_ * (fixed_px2 + (flicker_px2 + temporal_px2) / options_.averaged_frames) +
          steps_px2 / options_.averaged_frames;
-}
-
-bool DepthTheory::StandsOut(const InfraredLight& light) const {
-  const InfraredOptions& infrared = options_.infrared;
-  const double rho = options_.matching.least_correlation;
-  const double variance_dn2 =
-      infrared.dark_noise_dn * infrared.dark_noise_dn +
-      infrared.shot_noise_dn * (light.ambient_dn + kContrast * light.dot_dn);
-  // A block that just correlates enough: its noise is √(1/ρ² - 1) times the pattern's contrast.
-  return kContrast * light.dot_dn * std::sqrt(1.0 / (rho * rho) - 1.0) >= std::sqrt(variance_dn2);
 }
 
 DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
                                      const DepthImage& observed, const RayCaster& caster,
                                      const Lighting& lighting, const Pose& X_WB) const {
-  const Eigen::Vector3d p_DP(options_.projector_baseline_m, 0.0, 0.0);
   const AovImages aovs =
-      caster.CastAovs(rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = X_WB * p_DP});
+      caster.CastAovs(rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = X_WB * response_.p_CP()});
+  const double exposure = response_.Exposure(aovs);
   // The infra-red camera D is C unless depth is registered to colour.
   const Pose X_DC =
       options_.registered_depth ? Pose::Translation({options_.color_offset_m, 0.0, 0.0}) : Pose();
@@ -145,10 +136,12 @@ DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
           X_OC.rotation() * (X_CD.rotation() * Eigen::Vector3d(n[0], n[1], n[2]));
       const auto face = FaceOf(frame, wall_m, X_OC * p_CQ, normal_O);
       if (!face || !Returns(observed, image_camera_, p_CQ)) continue;
-      const InfraredLight light = InfraredLightAt(options_.infrared, aovs, {u, v}, r, p_DP);
+      const InfraredLight light = response_.LightAt(aovs, {u, v}, r).At(exposure);
       if (light.dot_dn <= 0.0) continue;
       // Beside bright walls, dark frames return what is the wall's.
-      if (!face->is_wall && !StandsOut(light)) continue;
+      if (!face->is_wall && response_.Correlation(light) < options_.matching.least_correlation) {
+        continue;
+      }
       const Eigen::Matrix<double, kDepthUnknowns, 1> gradient =
           focal_times_baseline_ *
           DisparityGradient(

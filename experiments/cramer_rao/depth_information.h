@@ -26,7 +26,9 @@ using DepthMatrix = Eigen::Matrix<double, kDepthUnknowns, kDepthUnknowns>;
 /// fixed and temporal deviation σ_f, σ_t, quantisation step q and k frames averaged, the spectral
 /// density at frequency 0, which is what counts for a plane, is
 ///
-///     S = N (σ_f² + σ_t²/k) + (q² + u²)/12k,   σ_t ~ √(noise of the infra-red image)/dot,
+///     S = N (σ_f² + (σ_s² + σ_t²)/k) + (q² + u²)/12k,
+///
+/// σ_s: of the speckle's flicker, σ_t ~ √(noise of the infra-red image)/dot,
 ///
 /// u: a unit of the depth image as disparity. Steps count as independent noise: they are dithered
 /// by a plane's slope and by noise. F = Σ ∂d ∂dᵀ/S over the pixels that return the front of the
@@ -47,14 +49,11 @@ class DepthTheory {
   double NoiseDensity(const InfraredLight& light, double z_m) const;
 
  private:
-  /// Whether dots of this light are matched by themselves.
-  bool StandsOut(const InfraredLight& light) const;
-
   StructuredLightOptions options_;
   CameraModel image_camera_;  ///< The depth image's.
   RayGrid rays_;              ///< The infra-red camera's, but coarser.
   double block_px_;           ///< N, in depth pixels.
-  double pattern_mean_;
+  InfraredResponse response_;
   double focal_times_baseline_;
 };
 

@@ -87,7 +87,7 @@ void DrawAmbient(cv::Mat3b& canvas, const Models& models) {
                      .title = "Daylight on a white wall at 3 m",
                      .x = {"on the wall [lx]", 50.0, 4e4, true},
                      .y = {"valid pixels [%]", 0.0, 130.0}});
-  plot.VerticalMark(PredictedAmbientLimit({}, 0.8, 3.0).lux, "predicted");
+  plot.VerticalMark(PredictedAmbientLimit({}, 0.8, 3.0), "predicted");
   models.Draw(plot, [](const DepthCurves& c) {
     Points points;
     for (const auto& a : c.by_ambient) {

@@ -131,18 +131,16 @@ std::string ShareTable(const std::string& x, const std::string& unit,
 
 std::string AmbientTables(const StructuredLightOptions& options, const DepthCurves& p,
                           const DepthCurves& s) {
-  TextTable halves = TableWith({"distance [m]", "predicted [lx]", "by", "parametric [lx]",
-                                "speckle [lx]", "speckle, ratio"});
+  TextTable halves = TableWith(
+      {"distance [m]", "predicted [lx]", "parametric [lx]", "speckle [lx]", "speckle, ratio"});
   const std::vector<ShareCurve> parametric = AmbientCurves(p);
   const std::vector<ShareCurve> speckle = AmbientCurves(s);
   for (size_t i = 0; i < speckle.size(); ++i) {
     const double z_m = speckle[i].level;
-    const ReachPrediction predicted = PredictedAmbientLimit(options, WallSetup::kWhite, z_m);
+    const double predicted = PredictedAmbientLimit(options, WallSetup::kWhite, z_m);
     const double measured = HalfPoint(speckle[i].x_and_share);
-    halves.AddRow({Number(z_m), Number(predicted.lux),
-                   predicted.by_saturation ? "saturation" : "acceptance",
-                   Number(HalfPoint(parametric[i].x_and_share)), Number(measured),
-                   fmt::format("{:.2f}", measured / predicted.lux)});
+    halves.AddRow({Number(z_m), Number(predicted), Number(HalfPoint(parametric[i].x_and_share)),
+                   Number(measured), fmt::format("{:.2f}", measured / predicted)});
   }
   return fmt::format("Half of the pixels are lost at:\n\n{}\nPixels with a return:\n\n{}",
                      halves.ToMarkdown(),

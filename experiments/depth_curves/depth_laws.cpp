@@ -6,34 +6,39 @@
 
 #include "scenes/lighting.h"
 #include "sim/structured_light/disparity.h"
-#include "sim/structured_light/dot_pattern.h"
+#include "sim/structured_light/infrared_response.h"
 
 namespace fenestra {
 namespace {
 
-// The wall on which Landau measured the dots.
-constexpr double kLandauReflectance = 0.8;
-
-// The pattern's moments: means over displacements by fractions of a pixel.
-SampledPattern::Moments MeanMoments(const InfraredOptions& infrared) {
-  const SampledPattern pattern(infrared.dot_sigma_px);
-  constexpr int kPhases = 8;
-  SampledPattern::Moments mean{0.0, 0.0};
-  for (int i = 0; i < kPhases; ++i) {
-    const auto moments = pattern.MomentsAt((i + 0.5) / kPhases);
-    mean.mean += moments.mean / kPhases;
-    mean.variance += moments.variance / kPhases;
-  }
-  return mean;
+// Light on the axis of a wall that faces the sensor, at the exposure that it gets.
+InfraredLight LightOf(const InfraredResponse& response, double reflectance, double z_m,
+                      double lux) {
+  const InfraredOptions& o = response.options();
+  constexpr double kLandauReflectance = 0.8;  // Of the wall on which Landau measured the dots.
+  const double reflected_dn = o.dot_signal_dn * reflectance / kLandauReflectance;
+  const InfraredLight light{.dot_dn = reflected_dn / (z_m * z_m),
+                            .ambient_dn = reflected_dn * lux * kDaylightIrradiance830PerLux *
+                                          o.filter_width_nm / response.DotIrradiance(),
+                            .cos_projector = 1.0};
+  return light.At(response.ExposureFor(light.dot_dn + light.ambient_dn));
 }
 
-// The noise variance [DN²] with which a block of dots of s DN still just correlates enough.
-double LargestNoise(const StructuredLightOptions& o, const SampledPattern::Moments& m,
-                    double s_dn) {
-  const double rho = o.matching.least_correlation;
-  const double c = o.infrared.speckle_contrast;
-  return s_dn * s_dn *
-         (m.variance / (rho * rho) - m.variance - c * c * (m.variance + m.mean * m.mean));
+InfraredResponse ResponseOf(const StructuredLightOptions& o) {
+  return {o.infrared,
+          CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px),
+          {o.projector_baseline_m, 0.0, 0.0}};
+}
+
+// Where a correlation that falls with x gets too small, from 0 to `most`.
+template <typename Correlation>
+double Crossing(const Correlation& correlation, double least, double most) {
+  double low = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + most);
+    (correlation(middle) >= least ? low : most) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -61,30 +66,22 @@ double MicrosoftStep(double z_m) {
   return 1.45e-3 * z_m * z_m;
 }
 
-ReachPrediction PredictedAmbientLimit(const StructuredLightOptions& o, double reflectance,
-                                      double z_m) {
-  const InfraredOptions& infrared = o.infrared;
-  const SampledPattern::Moments m = MeanMoments(infrared);
-  const double s_dn = infrared.dot_signal_dn * reflectance / kLandauReflectance / (z_m * z_m);
-  const double dark = infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0;
-  const double acceptance_dn =
-      std::max(0.0, (LargestNoise(o, m, s_dn) - dark) / infrared.shot_noise_dn - m.mean * s_dn);
-  const double dn_per_lux = infrared.dot_signal_dn * reflectance / kLandauReflectance *
-                            kDaylightIrradiance830PerLux * infrared.filter_width_nm /
-                            infrared.dot_irradiance;
-  return {.lux = std::min(acceptance_dn, infrared.saturation_dn) / dn_per_lux,
-          .by_saturation = infrared.saturation_dn <= acceptance_dn};
+double PredictedAmbientLimit(const StructuredLightOptions& o, double reflectance, double z_m) {
+  const InfraredResponse response = ResponseOf(o);
+  constexpr double kMost_lx = 1e6;
+  return Crossing(
+      [&](double lux) { return response.Correlation(LightOf(response, reflectance, z_m, lux)); },
+      o.matching.least_correlation, kMost_lx);
 }
 
 double PredictedReach(const StructuredLightOptions& o, double reflectance) {
-  const InfraredOptions& infrared = o.infrared;
-  const SampledPattern::Moments m = MeanMoments(infrared);
-  const double dark = infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0;
-  // k s² = dark + c_shot m s.
-  const double k = LargestNoise(o, m, 1.0);
-  const double b = infrared.shot_noise_dn * m.mean;
-  const double s_dn = (b + std::sqrt(b * b + 4.0 * k * dark)) / (2.0 * k);
-  return std::sqrt(infrared.dot_signal_dn * reflectance / kLandauReflectance / s_dn);
+  const InfraredResponse response = ResponseOf(o);
+  constexpr double kMost_m = 100.0;
+  return Crossing(
+      [&](double z_m) {
+        return response.Correlation(LightOf(response, reflectance, std::max(z_m, 1e-3), 0.0));
+      },
+      o.matching.least_correlation, kMost_m);
 }
 
 double ShadowWidth(const StructuredLightOptions& o, double zo_m, double zb_m) {

@@ -22,21 +22,11 @@ double NguyenLateralSigma(double angle_rad);
 double OpenNiStep(double z_m);
 double MicrosoftStep(double z_m);
 
-/// Predictions from a sensor's constants, before anything is simulated. A block of the pattern, of
-/// mean m and variance v, with dots of s DN, ambient light of a DN and speckle contrast c has the
-/// correlation
-///
-///     ρ = √v s / √(v s² + c² (v + m²) s² + σ_dark² + 1/12 + c_shot (m s + a)),
-///
-/// and is matched if ρ ≥ ρ₀, and if ambient light does not saturate the image.
-struct ReachPrediction {
-  double lux = 0.0;            ///< On the wall, of daylight, at which half of the blocks are lost.
-  bool by_saturation = false;  ///< Otherwise the acceptance test limits it.
-};
-
-/// For a wall of this 830 nm reflectance at distance z, facing the sensor.
-ReachPrediction PredictedAmbientLimit(const StructuredLightOptions& options, double reflectance,
-                                      double z_m);
+/// Predictions from a sensor's constants, before anything is simulated: where the expected
+/// correlation of a block (InfraredResponse::Correlation) becomes too small to be accepted. For a
+/// wall of this 830 nm reflectance at distance z, facing the sensor: the illuminance of the wall by
+/// daylight [lx].
+double PredictedAmbientLimit(const StructuredLightOptions& options, double reflectance, double z_m);
 
 /// The distance [m] at which dots on a surface of this reflectance are too dim without other light.
 double PredictedReach(const StructuredLightOptions& options, double reflectance);

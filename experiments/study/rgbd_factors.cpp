@@ -27,13 +27,10 @@ void AddRgbdDepth(FactorTable& t) {
               FIELD(rgbd.parametric.temporal_disparity_noise_px), {0.0, 10.0},
               "Standard deviation of the disparity noise where dots are as strong as the image "
               "noise; parametric model only.")
-      .Number(
-          "rgbd_lateral_noise_px", FIELD(rgbd.parametric.lateral_noise_px), {0.0, 10.0},
-          "Standard deviation of where outlines appear in the depth image; parametric model only.")
       .Number("rgbd_dot_signal_dn", FIELD(rgbd.infrared.dot_signal_dn), {0.0, 1e6},
               "Signal of a dot on a surface of reflectance 0.8 at 1 m.")
-      .Number("rgbd_dot_irradiance_w_m2", FIELD(rgbd.infrared.dot_irradiance), {1e-6, 1e6},
-              "Peak irradiance of a dot at 1 m.")
+      .Number("rgbd_projector_power_mw", FIELD(rgbd.infrared.projector_power_w),
+              {1e-3, 1e6, kMilli}, "Radiant power of the projector.")
       .Number("rgbd_dark_noise_dn", FIELD(rgbd.infrared.dark_noise_dn), {0.0, 1e4},
               "Standard deviation of the infra-red image's noise in the dark.")
       .Number("rgbd_shot_noise_dn", FIELD(rgbd.infrared.shot_noise_dn), {0.0, 1e3},
@@ -54,21 +51,19 @@ void AddRgbdDepth(FactorTable& t) {
       .Number("rgbd_dot_sigma_px", FIELD(rgbd.infrared.dot_sigma_px), {0.1, 1.0},
               "Standard deviation of a dot's spread in the infra-red image.")
       .Number("rgbd_speckle_contrast", FIELD(rgbd.infrared.speckle_contrast), {0.0, 1.0},
-              "Contrast of the laser's speckle in a pixel.")
+              "Contrast of the laser's speckle in a pixel, as far as it stays in all images.")
+      .Number("rgbd_speckle_flicker", FIELD(rgbd.infrared.speckle_flicker), {0.0, 1.0},
+              "Contrast of the laser's speckle in a pixel that is drawn anew for each image.")
+      .Number("rgbd_corner_illumination", FIELD(rgbd.infrared.corner_illumination), {0.05, 1.0},
+              "Share of the dots' light in the corners, besides what follows from the angle.")
+      .Switch("rgbd_infrared_auto_exposure", FIELD(rgbd.infrared.auto_exposure),
+              "Whether the infra-red exposure is shortened where light would saturate the image.")
       .Integer("rgbd_matching_window_width_px", FIELD(rgbd.matching.block_width_px), {3, 15},
                "Width of the block that is matched; odd.")
       .Integer("rgbd_matching_window_height_px", FIELD(rgbd.matching.block_height_px), {3, 15},
                "Height of the block that is matched; odd.")
       .Number("rgbd_least_correlation", FIELD(rgbd.matching.least_correlation), {0.01, 0.99},
               "Least correlation coefficient of a match that is accepted.")
-      .Number("rgbd_least_lead", FIELD(rgbd.matching.least_lead), {0.0, 0.99},
-              "Least lead of a match's correlation over that of the next best disparity.")
-      .Number("rgbd_most_unexplained", FIELD(rgbd.matching.most_unexplained), {0.0, 100.0},
-              "Largest variance that a match may leave unexplained besides noise, as a share of "
-              "what it explains.")
-      .Number("rgbd_most_off_centre", FIELD(rgbd.matching.most_off_centre), {0.01, 0.5},
-              "Largest offset of a partly lit block's evidence from its usual centre, as a share "
-              "of the block's width.")
       .Number("rgbd_search_px", FIELD(rgbd.matching.search_px), {1.0, 200.0},
               "Range of disparities that is searched, in pixels of a 640-wide image.");
 }

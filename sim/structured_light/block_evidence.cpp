@@ -12,7 +12,7 @@ namespace {
 
 // Fields of BlockEvidence: those that depend on a block's own disparity, and those that do
 // not, which are gathered column by column and then row by row.
-enum OwnField { kEvidence, kMoment, kDisparity, kOwnFields };
+enum OwnField { kEvidence, kDisparity, kOwnFields };
 enum BoxField { kDots, kDots2, kAmbient, kSmooth2, kStrongest, kStrongestDisparity, kBoxFields };
 
 // Share of each pixel in a side of this length.
@@ -28,7 +28,6 @@ std::vector<float> Weights(double side_px) {
 
 struct Pixel {
   float weight;
-  float x;
   float narrowness;
 };
 
@@ -37,7 +36,6 @@ FENESTRA_WIDE void AddEvidence(const float* __restrict dots, const float* __rest
                                const float* __restrict disparity, Pixel p, float* __restrict sums,
                                int count) {
   float* const sum_evidence = sums + kEvidence * count;
-  float* const sum_moment = sums + kMoment * count;
   float* const sum_disparity = sums + kDisparity * count;
   for (int i = 0; i < count; ++i) {
     // exp(-q) = (exp(-q/32))³².
@@ -50,7 +48,6 @@ FENESTRA_WIDE void AddEvidence(const float* __restrict dots, const float* __rest
     fit *= fit;
     const float evidence = p.weight * dots[i] * fit;
     sum_evidence[i] += evidence;
-    sum_moment[i] += evidence * p.x;
     sum_disparity[i] += evidence * places[i];
   }
 }
@@ -123,7 +120,6 @@ std::vector<BlockEvidence> BlockGatherer::Gather(const BlockLight& light, cv::Po
     for (int x = -reach_u(); x <= reach_u(); ++x) {
       AddEvidence(dots + x, places + x, disparity_px,
                   {.weight = weights_u_[static_cast<size_t>(x + reach_u())] * weight_v,
-                   .x = static_cast<float>(x),
                    .narrowness = narrowness_},
                   own[0], count);
     }
@@ -139,7 +135,6 @@ std::vector<BlockEvidence> BlockGatherer::Gather(const BlockLight& light, cv::Po
                       .ambient = box(kAmbient, i),
                       .smooth2 = box(kSmooth2, i),
                       .evidence = own(kEvidence, i),
-                      .moment = own(kMoment, i),
                       .disparity = own(kDisparity, i),
                       .strongest = box(kStrongest, i),
                       .strongest_disparity = box(kStrongestDisparity, i)});

@@ -21,7 +21,6 @@ struct BlockEvidence {
   float ambient = 0.0f;    ///< ⟨a⟩
   float smooth2 = 0.0f;    ///< ⟨(m s + a)²⟩, m: mean of the pattern.
   float evidence = 0.0f;   ///< ⟨e⟩
-  float moment = 0.0f;     ///< ⟨e x⟩; x: columns from the block's centre.
   float disparity = 0.0f;  ///< ⟨e d⟩
   float strongest = 0.0f;  ///< Greatest s.
   float strongest_disparity = 0.0f;

@@ -8,7 +8,7 @@
 #include "renderers/ray_caster.h"
 #include "renderers/tracing/render_types.h"
 #include "sim/structured_light/disparity.h"
-#include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/infrared_response.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {
@@ -41,20 +41,19 @@ struct ExplainedDepth {
 /// Determines why a block was not matched from the view of its central pixel.
 class MissingReturn {
  public:
-  /// Keeps references. `camera`: a pinhole; p_CP: the projector.
-  MissingReturn(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
-                const DisparityRange& range, const CameraModel& camera, const Eigen::Vector3d& p_CP)
-      : infrared_(infrared), matching_(matching), range_(range), camera_(camera), p_CP_(p_CP) {}
+  /// Keeps references. `exposure`: of the image, as a share of the longest one.
+  MissingReturn(const InfraredResponse& response, double exposure,
+                const PatternMatchingOptions& matching, const DisparityRange& range)
+      : response_(response), exposure_(exposure), matching_(matching), range_(range) {}
 
-  /// The pixel must see a surface, and its block lie in the image.
+  /// The pixel's block must lie in the image.
   NoReturn Reason(const AovImages& aovs, cv::Point pixel) const;
 
  private:
-  const InfraredOptions& infrared_;
+  const InfraredResponse& response_;
+  double exposure_;
   const PatternMatchingOptions& matching_;
   const DisparityRange& range_;
-  const CameraModel& camera_;
-  Eigen::Vector3d p_CP_;
 };
 
 /// Registers depth images to the colour camera, as drivers do: every pixel is reprojected to where

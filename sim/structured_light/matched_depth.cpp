@@ -25,33 +25,34 @@ CameraModel ScaledUp(const CameraModel& depth, int scale) {
 MatchedDepth::MatchedDepth(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                            const CameraModel& depth, int scale, double baseline_m,
                            const DisparityRange& range, const RollingShutter& shutter)
-    : infrared_(Validated(infrared)),
-      matching_(matching),
+    : matching_(matching),
       range_(range),
-      p_CP_(baseline_m, 0.0, 0.0),
       scale_(scale),
       depth_size_(depth.width_px(), depth.height_px()),
       rays_(ScaledUp(depth, scale), shutter),
+      response_(infrared, rays_.camera(), {baseline_m, 0.0, 0.0}),
       pattern_(infrared.dot_sigma_px),
-      matcher_(matching, infrared, pattern_, rays_.size(), 0.0,
+      matcher_(matching, pattern_, rays_.size(), 0.0,
                matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth) {}
 
 cv::Mat1w MatchedDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
                                         const Pose& X_WB, const RandomStream& shot,
                                         const RandomStream& image_noise) const {
-  const InfraredView view = rays_.Cast(caster, X_WB, lighting, p_CP_);
-  return InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
-                       image_noise.Child("infrared_noise"));
+  const InfraredView view = rays_.Cast(caster, X_WB, lighting, response_.p_CP());
+  return InfraredImage(response_, pattern_, rays_, view, response_.Exposure(view.aovs),
+                       shot.Child("laser_speckle"), image_noise.Child("infrared_noise"));
 }
 
 ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& lighting,
                                      const Pose& X_WB, double unit_m, const RandomStream& shot,
                                      const RandomStream& image_noise) const {
-  const InfraredView view = rays_.Cast(caster, X_WB, lighting, p_CP_);
+  const InfraredView view = rays_.Cast(caster, X_WB, lighting, response_.p_CP());
+  const double exposure = response_.Exposure(view.aovs);
   const cv::Mat1w infrared =
-      InfraredImage(infrared_, pattern_, rays_, view, p_CP_, shot.Child("laser_speckle"),
+      InfraredImage(response_, pattern_, rays_, view, exposure, shot.Child("laser_speckle"),
                     image_noise.Child("infrared_noise"));
   const PatternMatches matches = matcher_.Match(infrared, scale_);
+  const MissingReturn missing(response_, exposure, matching_, range_);
   const double to_640 = DisparityRange::kImageWidth / rays_.size().width;
   ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
                         .no_return = cv::Mat1b::zeros(depth_size_),
@@ -59,25 +60,20 @@ ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& li
   for (int v = 0; v < depth_size_.height; ++v) {
     for (int u = 0; u < depth_size_.width; ++u) {
       const cv::Point pixel(scale_ * u, scale_ * v);
-      NoReturn reason = Reason(view.aovs, pixel, matches);
-      if (reason == NoReturn::kNone) {
-        const double z_m = range_.Depth(static_cast<double>(matches.disparity_px(pixel)) * to_640);
+      double z_m = 0.0;
+      NoReturn reason = NoReturn::kNone;
+      if (std::isfinite(matches.disparity_px(pixel))) {
+        z_m = range_.Depth(static_cast<double>(matches.disparity_px(pixel)) * to_640);
         if (z_m == 0.0) reason = NoReturn::kRange;
-        result.depth.raw(v, u) = static_cast<uint16_t>(std::lround(z_m / unit_m));
+      } else {
+        reason = matches.correlation(pixel) <= -1.0f ? NoReturn::kBorder
+                                                     : missing.Reason(view.aovs, pixel);
       }
+      result.depth.raw(v, u) = static_cast<uint16_t>(std::lround(z_m / unit_m));
       result.no_return(v, u) = static_cast<unsigned char>(reason);
     }
   }
   return result;
-}
-
-NoReturn MatchedDepth::Reason(const AovImages& aovs, cv::Point pixel,
-                              const PatternMatches& matches) const {
-  // Blocks that straddle an outline match beyond it, but pixels without a surface have no depth.
-  if (!std::isfinite(aovs.depth_m(pixel))) return NoReturn::kNoSurface;
-  if (std::isfinite(matches.disparity_px(pixel))) return NoReturn::kNone;
-  if (matches.correlation(pixel) <= -1.0f) return NoReturn::kBorder;
-  return MissingReturn(infrared_, matching_, range_, rays_.camera(), p_CP_).Reason(aovs, pixel);
 }
 
 }  // namespace fenestra

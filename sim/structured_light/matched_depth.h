@@ -29,16 +29,12 @@ class MatchedDepth {
                             const RandomStream& shot, const RandomStream& image_noise) const;
 
  private:
-  /// Reason why the infra-red image's pixel has no match.
-  NoReturn Reason(const AovImages& aovs, cv::Point pixel, const PatternMatches& matches) const;
-
-  InfraredOptions infrared_;
   PatternMatchingOptions matching_;
   DisparityRange range_;
-  Eigen::Vector3d p_CP_;
   int scale_;
   cv::Size depth_size_;
   InfraredRays rays_;
+  InfraredResponse response_;
   SampledPattern pattern_;
   PatternMatcher matcher_;
 };

@@ -45,23 +45,20 @@ double SpreadOf(const InfraredOptions& infrared) {
 }  // namespace
 
 void Validate(const ParametricDepthOptions& o) {
-  if (o.fixed_disparity_noise_px < 0.0 || o.temporal_disparity_noise_px < 0.0 ||
-      o.lateral_noise_px < 0.0) {
-    throw InputError(
-        {{"structured-light sensor", 0, 0, "disparity and lateral noise must not be negative"}});
+  if (o.fixed_disparity_noise_px < 0.0 || o.temporal_disparity_noise_px < 0.0) {
+    throw InputError({{"structured-light sensor", 0, 0, "disparity noise must not be negative"}});
   }
 }
 
 /// A block with the pattern at one disparity.
 struct ParametricDepth::Match {
-  float correlation = 0.0f;    ///< ρ
-  float variance = 0.0f;       ///< V [DN²]
-  float step = 0.0f;           ///< var(m s + a)
-  float explained = 0.0f;      ///< ρ² V
-  float noise = 0.0f;          ///< σ²
-  float strength = 0.0f;       ///< √⟨s²⟩ [DN]
-  float off_centre_px = 0.0f;  ///< Centre of the evidence along the rows, in a 640-wide image.
-  float disparity_px = 0.0f;   ///< Mean over the evidence.
+  float correlation = 0.0f;   ///< ρ
+  float variance = 0.0f;      ///< V [DN²]
+  float step = 0.0f;          ///< var(m s + a)
+  float explained = 0.0f;     ///< ρ² V
+  float noise = 0.0f;         ///< σ²
+  float strength = 0.0f;      ///< √⟨s²⟩ [DN]
+  float disparity_px = 0.0f;  ///< Mean over the evidence.
 };
 
 ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
@@ -69,13 +66,17 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
                                  const PatternMatchingOptions& matching, const CameraModel& depth,
                                  double baseline_m, const DisparityRange& range,
                                  const RollingShutter& shutter)
-    : infrared_(Validated(infrared)),
-      noise_(Validated(noise)),
+    : noise_(Validated(noise)),
       matching_(Validated(matching)),
       range_(range),
-      p_CP_(baseline_m, 0.0, 0.0),
       rays_(depth, shutter),
-      pattern_mean_(static_cast<float>(SampledPattern(infrared.dot_sigma_px).MomentsAt(0.0).mean)),
+      response_(infrared, depth, {baseline_m, 0.0, 0.0}),
+      pattern_mean_(static_cast<float>(response_.pattern_mean())),
+      speckle_variance_(static_cast<float>(response_.SpeckleVariance())),
+      flicker_over_fixed_(
+          infrared.speckle_contrast > 0.0
+              ? static_cast<float>(infrared.speckle_flicker / infrared.speckle_contrast)
+              : 0.0f),
       search_px_(matching.SearchEnd(range)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
       blocks_(matching.block_width_px / scale_, matching.block_height_px / scale_,
@@ -93,20 +94,18 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
   }
 }
 
-BlockLight ParametricDepth::LightOf(const AovImages& aovs) const {
+BlockLight ParametricDepth::LightOf(const AovImages& aovs, double exposure) const {
   const cv::Size size = aovs.depth_m.size();
   BlockLight blocks{cv::Mat1f(size), cv::Mat1f(size), cv::Mat1f(size)};
   const auto fb = static_cast<float>(range_.focal_times_baseline);
-  const CameraParameters& k = rays_.camera().parameters();
+  const double saturation_dn = response_.options().saturation_dn;
   for (int v = 0; v < size.height; ++v) {
     for (int u = 0; u < size.width; ++u) {
-      const Eigen::Vector3d ray((u - k.cx_px) / k.fx_px, (v - k.cy_px) / k.fy_px, 1.0);
-      const InfraredLight light = InfraredLightAt(infrared_, aovs, {u, v}, ray, p_CP_);
+      const InfraredLight light = response_.LightAt(aovs, {u, v}).At(exposure);
       // A dot may saturate; what counts is how far it stands out of its surroundings.
-      const double ambient_dn = std::min(light.ambient_dn, infrared_.saturation_dn);
+      const double ambient_dn = std::min(light.ambient_dn, saturation_dn);
       blocks.ambient_dn(v, u) = static_cast<float>(ambient_dn);
-      blocks.dots_dn(v, u) =
-          static_cast<float>(std::min(light.dot_dn, infrared_.saturation_dn - ambient_dn));
+      blocks.dots_dn(v, u) = static_cast<float>(std::min(light.dot_dn, saturation_dn - ambient_dn));
       blocks.disparity_px(v, u) =
           std::isfinite(aovs.depth_m(v, u)) ? fb / aovs.depth_m(v, u) : BlockLight::kNoDisparity;
     }
@@ -115,8 +114,7 @@ BlockLight ParametricDepth::LightOf(const AovImages& aovs) const {
 }
 
 float ParametricDepth::BesidesIn(const Phase& phase) const {
-  const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
-  const float whole = c2 * (phase.variance + pattern_mean_ * pattern_mean_);
+  const float whole = speckle_variance_ * (phase.variance + pattern_mean_ * pattern_mean_);
   const float matched = phase.match * phase.match;
   return (whole + (1.0f - matched) * phase.variance) / (matched * phase.variance);
 }
@@ -128,32 +126,29 @@ ParametricDepth::Match ParametricDepth::MatchAt(const BlockEvidence& block,
   const float fraction = disparity_px - std::floor(disparity_px);
   const Phase& phase =
       phases_[std::min(static_cast<size_t>(fraction * kPhases), phases_.size() - 1)];
-  const auto c2 = static_cast<float>(infrared_.speckle_contrast * infrared_.speckle_contrast);
-  const auto dark_variance =
-      static_cast<float>(infrared_.dark_noise_dn * infrared_.dark_noise_dn + 1.0 / 12.0);
   const float smooth = pattern_mean_ * block.dots + block.ambient;
-  match.noise = dark_variance + static_cast<float>(infrared_.shot_noise_dn) * smooth;
+  match.noise = static_cast<float>(response_.NoiseVariance(static_cast<double>(smooth)));
   match.step = std::max(0.0f, block.smooth2 - smooth * smooth);
   match.variance =
-      (phase.variance + c2 * (phase.variance + pattern_mean_ * pattern_mean_)) * block.dots2 +
+      (phase.variance + speckle_variance_ * (phase.variance + pattern_mean_ * pattern_mean_)) *
+          block.dots2 +
       match.step + match.noise;
   const float signal = phase.match * block.evidence;
   match.explained = phase.variance * signal * signal;
   match.correlation = std::sqrt(match.explained / match.variance);
   match.strength = std::sqrt(block.dots2);
-  match.off_centre_px = static_cast<float>(scale_) * block.moment / block.evidence;
   match.disparity_px = block.disparity / block.evidence;
   return match;
 }
 
-float ParametricDepth::Measured(const Match& match, const Noise& noise) const {
+float ParametricDepth::Measured(const Match& match, float noise) const {
   // Fitted to PatternMatcher on walls: the search takes the best of several places around the right
   // one, and blocks hold more or fewer dots.
   constexpr float kBestOfSeveral = 0.5f;
   constexpr float kSpread = 0.95f;
   const float rho = match.correlation;
   const float deviation = (1.0f - rho * rho) / std::sqrt(Pixels());
-  return std::min(1.0f, rho + deviation * (kBestOfSeveral + kSpread * noise.evidence));
+  return std::min(1.0f, rho + deviation * (kBestOfSeveral + kSpread * noise));
 }
 
 float ParametricDepth::BestByChance(const Match& match, float enough, const Noise& noise) const {
@@ -166,47 +161,27 @@ float ParametricDepth::BestByChance(const Match& match, float enough, const Nois
       enough, noise.chance);
 }
 
-bool ParametricDepth::IsAccepted(const Match& match, float measured, float rival,
-                                 const Noise& noise) const {
-  if (measured < static_cast<float>(matching_.least_correlation)) return false;
-  if (measured - rival < static_cast<float>(matching_.least_lead)) return false;
-  const float explained = measured * measured * match.variance;
-  const float unexplained = match.variance - explained - match.noise;
-  if (unexplained <= static_cast<float>(matching_.most_unexplained) * explained) return true;
-  // The centre's noise: that of a mean place over the block, weighted with noisy evidence.
-  const auto width = static_cast<float>(matching_.block_width_px);
-  const float by_noise_px =
-      std::sqrt(match.noise / match.explained) * width / std::sqrt(12.0f * Pixels());
-  const float spread_px = std::hypot(by_noise_px, static_cast<float>(noise_.lateral_noise_px));
-  return std::abs(match.off_centre_px + spread_px * noise.lateral) <=
-         static_cast<float>(matching_.most_off_centre) * width;
-}
-
 float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
                             const Noise& noise) const {
   // A saturated block does not even have noise that could match.
-  if (block.ambient >= static_cast<float>(infrared_.saturation_dn - 0.5)) return kNaN;
+  if (block.ambient >= static_cast<float>(response_.options().saturation_dn - 0.5)) return kNaN;
   const float own_px = light.disparity_px(pixel);
   const float strongest_px = block.strongest_disparity;
   Match match = MatchAt(block, own_px);
-  float rival = -1.0f;
+  float measured = Measured(match, noise.evidence);
   if (std::abs(strongest_px - own_px) > 1.0f) {
-    Match other = MatchAt(blocks_.At(light, pixel, strongest_px), strongest_px);
-    if (other.correlation > match.correlation) std::swap(match, other);
-    rival = other.correlation;
+    const Match rival = MatchAt(blocks_.At(light, pixel, strongest_px), strongest_px);
+    const float measured_rival = Measured(rival, noise.rival);
+    if (measured_rival > measured) {
+      match = rival;
+      measured = measured_rival;
+    }
   }
-  const float measured = Measured(match, noise);
-  // A better place counts from where it is accepted, and a worse one from where it is a rival.
   const auto least = static_cast<float>(matching_.least_correlation);
-  const auto lead = static_cast<float>(matching_.least_lead);
-  const float chance = BestByChance(
-      match, measured < least ? std::max(least, measured + lead) : measured - lead, noise);
-  if (chance > measured) {
-    // A random place of the search fits better.
-    if (!IsAccepted(match, chance, measured, noise)) return kNaN;
+  if (BestByChance(match, std::max(least, measured), noise) > 0.0f) {
     return static_cast<float>(search_px_ * NormalShare(static_cast<double>(noise.temporal)));
   }
-  if (!IsAccepted(match, measured, std::max(rival, chance), noise)) return kNaN;
+  if (measured < least || match.explained <= 0.0f) return kNaN;
   return match.disparity_px + DisparityError(match, measured, noise);
 }
 
@@ -222,23 +197,26 @@ float ParametricDepth::DisparityError(const Match& match, float measured,
   const float disturbed = std::sqrt(besides / (match.explained * whole_besides_));
   const float noisy =
       std::sqrt(match.noise * std::min(1.0f, match.correlation / measured)) / match.strength;
-  return static_cast<float>(noise_.fixed_disparity_noise_px) * disturbed * noise.fixed +
+  const float flicker = flicker_over_fixed_ * noise.flicker;
+  return static_cast<float>(noise_.fixed_disparity_noise_px) * disturbed * (noise.fixed + flicker) +
          static_cast<float>(noise_.temporal_disparity_noise_px) * noisy * noise.temporal;
 }
 
 ExplainedDepth ParametricDepth::Observe(const RayCaster& caster, const Lighting& lighting,
                                         const Pose& X_WB, double unit_m, const RandomStream& shot,
                                         const RandomStream& image_noise) const {
-  const AovImages aovs = rays_.CastAovs(caster, X_WB, lighting, p_CP_);
-  const BlockLight light = LightOf(aovs);
+  const AovImages aovs = rays_.CastAovs(caster, X_WB, lighting, response_.p_CP());
+  const double exposure = response_.Exposure(aovs);
+  const BlockLight light = LightOf(aovs, exposure);
   const cv::Size size = aovs.depth_m.size();
   const cv::Size block(2 * blocks_.reach_u() + 1, 2 * blocks_.reach_v() + 1);
   const cv::Mat1f evidence = BlockNoise(image_noise.Child("evidence"), size, block);
-  const cv::Mat1f lateral = BlockNoise(image_noise.Child("lateral"), size, block);
+  const cv::Mat1f rival = BlockNoise(image_noise.Child("rival"), size, block);
   const cv::Mat1f chance = BlockNoise(image_noise.Child("chance"), size, block);
   const cv::Mat1f fixed = BlockNoise(shot.Child("laser_speckle"), size, block);
+  const cv::Mat1f flicker = BlockNoise(image_noise.Child("flicker"), size, block);
   const cv::Mat1f temporal = BlockNoise(image_noise.Child("disparity"), size, block);
-  const MissingReturn missing(infrared_, matching_, range_, rays_.camera(), p_CP_);
+  const MissingReturn missing(response_, exposure, matching_, range_);
   const cv::Size reach(matching_.block_width_px / 2, matching_.block_height_px / 2);
   ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
                         .no_return = cv::Mat1b::zeros(size)};
@@ -251,17 +229,16 @@ ExplainedDepth ParametricDepth::Observe(const RayCaster& caster, const Lighting&
                              Covers(size, reach.width, reach.height, u, v, scale_);
       NoReturn reason = NoReturn::kNone;
       double z_m = 0.0;
-      if (!std::isfinite(aovs.depth_m(pixel))) {
-        reason = NoReturn::kNoSurface;
-      } else if (!is_inside) {
+      if (!is_inside) {
         reason = NoReturn::kBorder;
       } else {
         const float disparity_px =
             Read(light, row[static_cast<size_t>(u - blocks_.reach_u())], pixel,
                  {.evidence = evidence(pixel),
-                  .lateral = lateral(pixel),
+                  .rival = rival(pixel),
                   .chance = chance(pixel),
                   .fixed = fixed(pixel),
+                  .flicker = flicker(pixel),
                   .temporal = temporal(pixel)});
         if (std::isfinite(disparity_px)) {
           z_m = range_.Depth(static_cast<double>(disparity_px));

@@ -9,22 +9,19 @@
 #include "sim/structured_light/block_evidence.h"
 #include "sim/structured_light/disparity.h"
 #include "sim/structured_light/explained_depth.h"
-#include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/infrared_response.h"
 #include "sim/structured_light/pattern_matching.h"
 
 namespace fenestra {
 
-/// Noise of the parametric model, in pixels of a 640-wide image.
+/// Noise of the parametric model, in pixels of a 640-wide image. Both fitted to MatchedDepth before
+/// white walls.
 struct ParametricDepthOptions {
-  /// Standard deviations of the disparity before quantisation: by the laser's speckle and the place
-  /// within a pixel, the same in every image of a view; and by noise, in blocks whose dots exceed
-  /// it by its own standard deviation. Both fitted to MatchedDepth before white walls at 0.8 to 4
-  /// m.
-  double fixed_disparity_noise_px = 0.03;
+  /// Standard deviation of the disparity before quantisation by the laser's speckle that stays the
+  /// same in every image of a view, in a whole block. That of its flicker is in proportion.
+  double fixed_disparity_noise_px = 0.05;
+  /// That by the images' noise, in blocks whose dots exceed it by its own standard deviation.
   double temporal_disparity_noise_px = 0.28;
-  /// Standard deviation of the centre of a block's evidence: outlines are displaced by that (Barron
-  /// & Handa, simkinect: 0.5).
-  double lateral_noise_px = 0.5;
 };
 
 /// Throws InputError with all faults.
@@ -41,13 +38,12 @@ void Validate(const ParametricDepthOptions& options);
 ///     S = ⟨s_i exp(-(d_i - d)² / 4 σ_p²)⟩,
 ///
 /// where σ_p² = σ_dot² + 1/12 is the spread of a dot with that of a pixel and κ the correlation of
-/// the pattern at d with itself at the nearest step of the search. d is the disparity of the
-/// block's centre or that of its strongest pixel, whichever fits better. Noise of the standard
-/// deviation (1 - ρ²)/√n is added to ρ, and PatternMatchingOptions decide, as in PatternMatcher.
-/// The best of the N other places of the search correlates by chance: by the greatest of N normal
-/// numbers of deviation 1/√n. Where that is more than ρ it is the match, if it is accepted.
-/// The block's disparity is the mean of d_i over its evidence, and noise: the fixed part in
-/// proportion to √((V - ρ²V - σ²)/ρ²V), the temporal one to σ/√⟨s²⟩.
+/// the pattern at d with itself at the nearest step of the search. Noise of the standard deviation
+/// (1 - ρ²)/√n is added to ρ. Of three places the one that fits best is the match, and is accepted
+/// as in PatternMatcher: the disparity of the block's centre; that of its strongest pixel; and the
+/// best of the N other places of the search, which correlate by chance, by the greatest of N normal
+/// numbers of deviation 1/√n. The block's disparity is the mean of d_i over its evidence, and
+/// noise: the fixed part in proportion to √((V - ρ²V - σ²)/ρ²V), the temporal one to σ/√⟨s²⟩.
 class ParametricDepth {
  public:
   ParametricDepth(const InfraredOptions& infrared, const ParametricDepthOptions& noise,
@@ -65,9 +61,10 @@ class ParametricDepth {
   /// Standard normal variates of one block.
   struct Noise {
     float evidence;
-    float lateral;
+    float rival;
     float chance;
     float fixed;
+    float flicker;
     float temporal;
   };
   /// The pattern at a displacement by a fraction of a pixel.
@@ -80,32 +77,32 @@ class ParametricDepth {
   float Pixels() const {
     return static_cast<float>(matching_.block_width_px * matching_.block_height_px);
   }
-  BlockLight LightOf(const AovImages& aovs) const;
+  BlockLight LightOf(const AovImages& aovs, double exposure) const;
   /// Match of the block with the pattern at this disparity [px at 640].
   Match MatchAt(const BlockEvidence& block, float disparity_px) const;
   /// Variance of a whole block besides match and noise, over the variance that the match explains.
   float BesidesIn(const Phase& phase) const;
-  /// The correlation as measured, with noise.
-  float Measured(const Match& match, const Noise& noise) const;
+  /// The correlation as measured, with standard normal noise.
+  float Measured(const Match& match, float noise) const;
   /// The best correlation of all wrong places if it is more than `enough`, or else -1.
   float BestByChance(const Match& match, float enough, const Noise& noise) const;
-  bool IsAccepted(const Match& match, float measured, float rival, const Noise& noise) const;
   /// Error of the disparity [px at 640].
   float DisparityError(const Match& match, float measured, const Noise& noise) const;
   /// Disparity after noise [px at 640], or NaN.
   float Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
              const Noise& noise) const;
 
-  InfraredOptions infrared_;
   ParametricDepthOptions noise_;
   PatternMatchingOptions matching_;
   DisparityRange range_;
-  Eigen::Vector3d p_CP_;
   MovingRays rays_;
+  InfraredResponse response_;
   float pattern_mean_;
+  float speckle_variance_;
   std::array<Phase, kPhases> phases_;
   float whole_besides_ = 0.0f;  ///< BesidesIn, the mean of all phases.
   float dots_chance_ = 1.0f;    ///< Σ r² of the pattern's autocorrelation r = exp(-k²/4σ_p²).
+  float flicker_over_fixed_;    ///< Contrast of the flicker over that of the fixed speckle.
   double search_px_;            ///< Disparities are searched up to this [px at 640].
   double scale_;                ///< Pixels of a 640-wide image per depth pixel.
   BlockGatherer blocks_;

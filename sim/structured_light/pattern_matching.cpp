@@ -77,19 +77,13 @@ inline float Choose(int32_t mask, float a, float b) {
 // Everything is loaded before anything is stored, and no two of the arrays overlap.
 FENESTRA_WIDE void Update(const float* __restrict scores, float step, float* __restrict best_score,
                           float* __restrict best_step, float* __restrict best_before,
-                          float* __restrict best_after, float* __restrict best_second,
-                          float* __restrict last, int count) {
-  constexpr float kAway = 2.5f;  // Steps of half a pixel.
+                          float* __restrict best_after, float* __restrict last, int count) {
   for (int u = 0; u < count; ++u) {
     const float score = scores[u];
     const float old_score = best_score[u];
-    const float old_second = best_second[u];
     const float distance = step - best_step[u];
     const int32_t better = MaskOf(score > old_score);
-    const float loser = Choose(better, old_score, score);
-    const int32_t second = MaskOf(distance > kAway) & MaskOf(loser > old_second);
     const float after = Choose(MaskOf(distance < 1.5f), score, best_after[u]);
-    best_second[u] = Choose(second, loser, old_second);
     best_after[u] = Choose(better, kNoScore, after);
     best_before[u] = Choose(better, last[u], best_before[u]);
     best_step[u] = Choose(better, step, step - distance);
@@ -134,22 +128,12 @@ void Validate(const PatternMatchingOptions& o) {
   faults.Require(o.search_px >= 1.0 && o.search_px <= 200.0, "the search must be over 1 to 200 px");
   faults.Require(o.least_correlation > 0.0 && o.least_correlation < 1.0,
                  "the least correlation must lie between 0 and 1");
-  faults.Require(o.least_lead >= 0.0 && o.least_lead < 1.0,
-                 "the least lead must lie between 0 and 1");
-  faults.Require(o.most_unexplained >= 0.0, "the most that is unexplained must not be negative");
-  faults.Require(
-      o.most_off_centre > 0.0 && o.most_off_centre <= 0.5,
-      "evidence may be off centre by up to half of the window's width, but not by nothing");
   faults.ThrowIfAny();
 }
 
-PatternMatcher::PatternMatcher(const PatternMatchingOptions& options,
-                               const InfraredOptions& infrared, const SampledPattern& pattern,
+PatternMatcher::PatternMatcher(const PatternMatchingOptions& options, const SampledPattern& pattern,
                                cv::Size image, double least_px, double most_px)
     : options_(Validated(options)),
-      // Rounding to whole numbers is noise too.
-      dark_variance_(infrared.dark_noise_dn * infrared.dark_noise_dn + 1.0 / 12.0),
-      shot_noise_dn_(infrared.shot_noise_dn),
       vertex_(pattern),
       size_(image),
       least_(static_cast<int>(std::floor(least_px))),
@@ -204,13 +188,12 @@ PatternMatches PatternMatcher::Match(const cv::Mat1w& image, int row_step) const
   std::vector<int> products(static_cast<size_t>(inside));
   std::vector<float> scores(products.size());
   for (int v = reach_v; v + reach_v < size_.height; ++v) {
-    cv::Mat1f memory(6, inside, kNoScore);
+    cv::Mat1f memory(5, inside, kNoScore);
     const Best best{.score = memory[0],
                     .step = memory[1],
                     .before = memory[2],
                     .after = memory[3],
-                    .second = memory[4],
-                    .last = memory[5]};
+                    .last = memory[4]};
     const bool is_wanted = v % row_step == 0;
     for (int k = 0; k <= steps; ++k) {
       const Phase& phase = phases_[k % 2];
@@ -225,18 +208,13 @@ PatternMatches PatternMatcher::Match(const cv::Mat1w& image, int row_step) const
       Correlate(products.data(), pixels, sums[v] + reach_u, inverse_spread[v] + reach_u,
                 phase.sums[v] + shift, phase.inverse_spread[v] + shift, scores.data(), inside);
       Update(scores.data(), static_cast<float>(k), best.score, best.step, best.before, best.after,
-             best.second, best.last, inside);
+             best.last, inside);
     }
     if (!is_wanted) continue;
     for (int i = 0; i < inside; ++i) {
       matches.correlation(v, i + reach_u) = std::max(best.score[i], -1.0f);
-      const auto place_px = Accept(best, i);
-      if (!place_px) continue;
-      const cv::Point pixel(i + reach_u, v);
-      const double mean = static_cast<double>(sums(pixel)) / static_cast<double>(pixels);
-      if (IsWhole(best.score[i], mean, static_cast<double>(inverse_spread(pixel))) ||
-          IsCentred(grey, pixel, mean, static_cast<int>(best.step[i]))) {
-        matches.disparity_px(pixel) = static_cast<float>(least_) + *place_px;
+      if (const auto place_px = Accept(best, i)) {
+        matches.disparity_px(v, i + reach_u) = static_cast<float>(least_) + *place_px;
       }
     }
   }
@@ -248,53 +226,10 @@ std::optional<float> PatternMatcher::Accept(const Best& best, int i) const {
   const float before = best.before[i];
   const float after = best.after[i];
   if (score < static_cast<float>(options_.least_correlation)) return std::nullopt;
-  if (score - best.second[i] < static_cast<float>(options_.least_lead)) return std::nullopt;
   // The first and the last step have no neighbour on one side.
   if (before == kNoScore || after == kNoScore) return std::nullopt;
   const bool is_whole_pixel = static_cast<int>(best.step[i]) % 2 == 0;
   return 0.5f * best.step[i] + vertex_.Offset(is_whole_pixel, before, score, after);
-}
-
-// With a block's variance V, the match explains ρ² V and leaves (1 - ρ²) V, of which the noise is
-// a part.
-bool PatternMatcher::IsWhole(float correlation, double mean, double inverse_spread) const {
-  const double pixels = options_.block_width_px * options_.block_height_px;
-  const double variance = std::pow(1.0 / (pixels * inverse_spread), 2);
-  const double explained = variance * std::pow(static_cast<double>(correlation), 2);
-  const double noise = dark_variance_ + shot_noise_dn_ * mean;
-  return variance - explained - noise <= options_.most_unexplained * explained;
-}
-
-// The evidence in column x of the block is its part of the covariance; if all dots are there, it
-// is in proportion to that column's part of the pattern's variance.
-bool PatternMatcher::IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean,
-                               int step) const {
-  const int reach_u = options_.block_width_px / 2;
-  const int reach_v = options_.block_height_px / 2;
-  const Phase& phase = phases_[static_cast<size_t>(step % 2)];
-  const int shift = most_ - least_ - step / 2;
-  const double pixels = options_.block_width_px * options_.block_height_px;
-  const double pattern_mean = phase.sums(pixel.y, pixel.x + shift) / pixels;
-  double evidence = 0.0;
-  double evidence_moment = 0.0;
-  double whole = 0.0;
-  double whole_moment = 0.0;
-  for (int x = -reach_u; x <= reach_u; ++x) {
-    double products = 0.0;
-    double squares = 0.0;
-    for (int y = -reach_v; y <= reach_v; ++y) {
-      const double r = phase.values(pixel.y + y, pixel.x + x + shift) - pattern_mean;
-      products += (image(pixel.y + y, pixel.x + x) - mean) * r;
-      squares += r * r;
-    }
-    evidence += products;
-    evidence_moment += products * x;
-    whole += squares;
-    whole_moment += squares * x;
-  }
-  if (evidence <= 0.0 || whole <= 0.0) return false;
-  return std::abs(evidence_moment / evidence - whole_moment / whole) <=
-         options_.most_off_centre * options_.block_width_px;
 }
 
 }  // namespace fenestra

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "sim/structured_light/disparity.h"
-#include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/dot_pattern.h"
 
 namespace fenestra {
 
@@ -20,19 +20,10 @@ struct PatternMatchingOptions {
   int block_width_px = 9;   ///< Odd, 3 to 15.
   int block_height_px = 9;  ///< Odd, 3 to 15.
   /// A match counts if its correlation coefficient is at least this. By chance, coefficients of
-  /// blocks of 81 pixels have a standard deviation of 1/9. Chosen.
-  double least_correlation = 0.5;
-  /// A match must exceed the coefficients of all places more than a pixel away by this. Chosen.
-  double least_lead = 0.15;
-  /// The variance that a match leaves unexplained, besides noise, must be no more than this share
-  /// of the variance that it explains: all dots of the block are there. Chosen, above the effect of
-  /// laser speckle.
-  double most_unexplained = 0.3;
-  /// Otherwise, the centre of its evidence must lie within this share of the block's width from the
-  /// centre of the whole pattern. If a shadow cuts off half of a block, the evidence of the other
-  /// half is a quarter of the width off: with 1/4, a surface ends where the block's centre leaves
-  /// it, and shadows have their true width.
-  double most_off_centre = 0.25;
+  /// blocks of 81 pixels have a standard deviation of 1/9. Blocks that hold a part of the
+  /// foreground and a part of its shadow correlate with a part of their dots: the value is chosen
+  /// so that shadows are 3 to 4 px of 640 narrower than geometry says, as recorded.
+  double least_correlation = 0.45;
 
   /// The largest disparity that is searched [px of a 640-wide image]: with room for noise, and for
   /// the neighbours that the vertex needs.
@@ -63,9 +54,8 @@ class PatternMatcher {
   static constexpr double kMostDisparity_px = 1000.0;
 
   /// For images of this size, disparities from least to most [px]; 0 ≤ least < most ≤ 1000.
-  /// `infrared`: the known noise of the image.
-  PatternMatcher(const PatternMatchingOptions& options, const InfraredOptions& infrared,
-                 const SampledPattern& pattern, cv::Size image, double least_px, double most_px);
+  PatternMatcher(const PatternMatchingOptions& options, const SampledPattern& pattern,
+                 cv::Size image, double least_px, double most_px);
 
   /// Matches an image of 10 bits. Blocks that leave it are not matched. Of the rows, only every
   /// `row_step`th is matched, beginning with the first.
@@ -75,20 +65,14 @@ class PatternMatcher {
   struct Best {
     float* score;   ///< The best one,
     float* step;    ///< where it was, in half pixels,
-    float* before;  ///< the scores next to it,
+    float* before;  ///< and the scores next to it.
     float* after;
-    float* second;  ///< and the best one more than a pixel away.
-    float* last;    ///< The score of the step before.
+    float* last;  ///< The score of the step before.
   };
 
  private:
   /// The disparity at which pixel i of a row matches, less the least disparity [px].
   std::optional<float> Accept(const Best& best, int i) const;
-  /// Whether all dots of a pixel's block are there, as far as the noise permits. `mean` and
-  /// `inverse_spread` are those of the image's block.
-  bool IsWhole(float correlation, double mean, double inverse_spread) const;
-  /// Whether the match at this step rests on dots around the pixel rather than on one side of it.
-  bool IsCentred(const cv::Mat1i& image, cv::Point pixel, double mean, int step) const;
 
   /// The pattern displaced by half a pixel (phase 1) or not (phase 0), and its blocks' statistics;
   /// column i is the pattern's column i - most.
@@ -99,8 +83,6 @@ class PatternMatcher {
   };
 
   PatternMatchingOptions options_;
-  double dark_variance_;
-  double shot_noise_dn_;
   SubpixelVertex vertex_;
   cv::Size size_;
   int least_;

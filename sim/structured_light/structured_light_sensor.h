@@ -10,7 +10,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/camera/color_camera.h"
 #include "sim/structured_light/explained_depth.h"
-#include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/infrared_response.h"
 #include "sim/structured_light/matched_depth.h"
 #include "sim/structured_light/parametric_depth.h"
 #include "sim/truth/ground_truth.h"

@@ -43,7 +43,7 @@ TEST(DepthCurvesTest, TheParametricModelLosesReturnsToLightAndDistance) {
     for (const auto& at : curves.by_ambient) {
       if (at.z_m == z_m) shares.emplace_back(at.wall_lx, at.valid);
     }
-    const double predicted = PredictedAmbientLimit({}, WallSetup::kWhite, z_m).lux;
+    const double predicted = PredictedAmbientLimit({}, WallSetup::kWhite, z_m);
     EXPECT_LT(std::abs(std::log2(HalfPoint(shares) / predicted)), 1.0) << z_m;
   }
   // The disparities that occur are multiples of a fixed step: z²/(f b) steps, whatever the image.

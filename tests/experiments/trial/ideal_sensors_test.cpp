@@ -39,7 +39,6 @@ std::vector<Error> ErrorsOf(const std::string& sensor) {
                             "  stereo_calibration: exact\n"
                           : "  rgbd_fixed_disparity_noise_px: 0\n"
                             "  rgbd_temporal_disparity_noise_px: 0\n"
-                            "  rgbd_lateral_noise_px: 0\n"
                             "  rgbd_color_noise: false\n"
                             "  rgbd_color_fixed_pattern: false\n"
                             "  frame_reflectance_830nm: 0.8\n");

@@ -45,7 +45,6 @@ TEST(BlockEvidence, OfEvenLightIsThatOfAPixel) {
   EXPECT_NEAR(block.ambient, 10.0, 10.0 * kRounding);
   EXPECT_NEAR(block.smooth2, 400.0, 400.0 * kRounding);  // (0.2 · 50 + 10)²
   EXPECT_NEAR(block.evidence, 50.0, 50.0 * kRounding);
-  EXPECT_NEAR(block.moment, 0.0, 50.0 * gatherer.reach_u() * kRounding);
   EXPECT_NEAR(block.disparity, 50.0 * 31.0, 50.0 * 31.0 * kRounding);
   EXPECT_EQ(block.strongest, 50.0f);
   EXPECT_EQ(block.strongest_disparity, 31.0f);
@@ -61,7 +60,7 @@ TEST(BlockEvidence, IsTheWeightedMeanOverTheBlock) {
   EXPECT_EQ(gatherer.reach_v(), 2);
   const cv::Point pixel(17, 11);
   const double d = 31.1;
-  double dots = 0.0, dots2 = 0.0, ambient = 0.0, smooth2 = 0.0, evidence = 0.0, moment = 0.0;
+  double dots = 0.0, dots2 = 0.0, ambient = 0.0, smooth2 = 0.0, evidence = 0.0;
   double disparity = 0.0;
   for (int y = -4; y <= 4; ++y) {
     for (int x = -4; x <= 4; ++x) {
@@ -77,7 +76,6 @@ TEST(BlockEvidence, IsTheWeightedMeanOverTheBlock) {
       ambient += weight * a;
       smooth2 += weight * std::pow(kMean * s + a, 2);
       evidence += weight * e;
-      moment += weight * e * x;
       disparity += weight * e * light.disparity_px(at);
     }
   }
@@ -88,7 +86,6 @@ TEST(BlockEvidence, IsTheWeightedMeanOverTheBlock) {
   EXPECT_NEAR(block.ambient, ambient, kRounding * ambient);
   EXPECT_NEAR(block.smooth2, smooth2, kRounding * smooth2);
   EXPECT_NEAR(block.evidence, evidence, kRounding * evidence);
-  EXPECT_NEAR(block.moment, moment, kRounding * 3.0 * evidence);
   EXPECT_NEAR(block.disparity, disparity, kRounding * disparity);
 }
 
@@ -127,11 +124,9 @@ TEST(BlockEvidence, IsCentredOnWhatIsAtItsDisparity) {
   const BlockGatherer gatherer(9.0, 7.0, kMean, kSpread_px);
   const BlockEvidence behind = gatherer.At(light, {20, 15}, 31.0f);
   EXPECT_NEAR(behind.evidence, 50.0f * 6.0f / 9.0f, 1e-3f);
-  EXPECT_NEAR(behind.moment / behind.evidence, -1.5f, 1e-3f);  // Columns -4 to 1.
   EXPECT_NEAR(behind.disparity / behind.evidence, 31.0f, 1e-3f);
   const BlockEvidence before = gatherer.At(light, {20, 15}, 45.0f);
   EXPECT_NEAR(before.evidence, 50.0f * 3.0f / 9.0f, 1e-3f);
-  EXPECT_NEAR(before.moment / before.evidence, 3.0f, 1e-3f);
 }
 
 TEST(BlockEvidence, NothingIsNoEvidence) {
@@ -139,7 +134,6 @@ TEST(BlockEvidence, NothingIsNoEvidence) {
   const BlockLight nothing = Even({40, 30}, 0.0f, 10.0f, BlockLight::kNoDisparity);
   const BlockEvidence block = gatherer.At(nothing, {20, 15}, 31.0f);
   EXPECT_EQ(block.evidence, 0.0f);
-  EXPECT_EQ(block.moment, 0.0f);
   EXPECT_EQ(block.strongest, 0.0f);
   EXPECT_FLOAT_EQ(block.smooth2, 100.0f);
 }
