@@ -161,7 +161,7 @@ std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOption
 void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
                      const SceneViewOptions& options) {
   const std::vector<SceneCamera> cameras = CamerasOf(world, options);
-  const RayCaster caster(Tessellated(world.scene, EdgeForTriangles(world.scene, kTriangles)));
+  const RayCaster caster(Tessellated(world.scene, kTriangles));
   std::set<std::string> used;
   for (const SceneCamera& camera : cameras) {
     WriteView(folder / FolderName(camera.name, used), caster, camera, options.lighting);
