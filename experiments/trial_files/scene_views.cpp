@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 
 #include "core/io/faults.h"
 #include "core/io/image_io.h"
@@ -90,7 +92,7 @@ cv::Mat Picture(const cv::Mat& radiance) {
 }
 
 void WriteView(const OutputPath& folder, const RayCaster& caster, const SceneCamera& camera,
-               const Lighting& lighting) {
+               const Lighting& lighting, const Vector3d& p_FW) {
   const RayGrid rays(camera.model);
   const auto render = [&](Band band) -> cv::Mat {
     return caster.Render(rays, camera.X_WC, lighting, {.band = band}, RandomStream(0));
@@ -106,9 +108,12 @@ void WriteView(const OutputPath& folder, const RayCaster& caster, const SceneCam
   const std::array<PlacedCamera, 1> cameras = {PlacedCamera{camera.model, camera.X_WC}};
   WritePng(folder / "color.png", Picture(color));
   WritePng(folder / "infrared.png", Picture(infrared));
-  WriteExr(folder / "scene.exr", channels, CameraMetadata(camera.model, camera.X_WC));
-  WriteFileAtomically(folder / "truth.json",
-                      TruthJson(MakeGroundTruth(caster.scene(), camera.X_WC, cameras), "camera"));
+  std::map<std::string, std::string> metadata = CameraMetadata(camera.model, camera.X_WC);
+  metadata["world_origin_in_file"] = fmt::format("{} {} {} m", p_FW.x(), p_FW.y(), p_FW.z());
+  WriteExr(folder / "scene.exr", channels, metadata);
+  WriteFileAtomically(
+      folder / "truth.json",
+      TruthJson(MakeGroundTruth(caster.scene(), camera.X_WC, cameras), "camera", p_FW));
 }
 
 // Names become folders, and may come from a file that someone else wrote.
@@ -164,7 +169,7 @@ void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
   const RayCaster caster(Tessellated(world.scene, kTriangles));
   std::set<std::string> used;
   for (const SceneCamera& camera : cameras) {
-    WriteView(folder / FolderName(camera.name, used), caster, camera, options.lighting);
+    WriteView(folder / FolderName(camera.name, used), caster, camera, options.lighting, world.p_FW);
   }
 }
 

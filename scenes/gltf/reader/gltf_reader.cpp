@@ -11,6 +11,7 @@
 #include "scenes/gltf/reader/images.h"
 #include "scenes/gltf/reader/materials.h"
 #include "scenes/gltf/reader/meshes.h"
+#include "scenes/gltf/reader/origin.h"
 #include "scenes/gltf/reader/placement.h"
 #include "scenes/gltf/reader/windows.h"
 
@@ -48,14 +49,17 @@ GltfScene ReadGltf(const std::filesystem::path& file, const GltfReadOptions& opt
 
   gltf::Notes notes;
   NoteWhatIsIgnored(asset, notes);
-  const std::vector<gltf::PlacedNode> nodes = gltf::PlaceNodes(asset, options.scene_index);
+  std::vector<gltf::PlacedNode> nodes = gltf::PlaceNodes(asset, options.scene_index);
+  gltf::CheckTriangleCount(asset, nodes, options.max_triangles);
+  const Eigen::Vector3d p_FW = gltf::ChooseOrigin(asset, nodes, options.target_node, notes);
+  nodes = gltf::MovedTo(p_FW, std::move(nodes));
   gltf::ReadMaterials materials = gltf::ConvertMaterials(asset, options.max_image_pixels, notes);
-  gltf::PlacedMeshes meshes =
-      gltf::PlaceMeshes(asset, nodes, materials.materials, options.max_triangles, notes);
+  gltf::PlacedMeshes meshes = gltf::PlaceMeshes(asset, nodes, materials.materials, notes);
   gltf::Windows windows = gltf::FindWindows(asset, nodes, meshes, options.target_node);
   gltf::Lights lights = gltf::ReadLights(asset, nodes, notes);
 
   GltfScene result;
+  result.p_FW = p_FW;
   result.cameras = gltf::ReadCameras(asset, nodes, options.camera_height_px, notes);
   result.sun = lights.sun;
   Scene& scene = result.scene;

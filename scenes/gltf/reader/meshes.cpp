@@ -81,33 +81,6 @@ const tinygltf::Mesh* MeshOf(const Asset& asset, const PlacedNode& placed) {
   return placed.is_visible && mesh >= 0 ? &asset.model.meshes[static_cast<size_t>(mesh)] : nullptr;
 }
 
-void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most) {
-  size_t triangles = 0;
-  size_t vertices = 0;
-  size_t meshes = 0;
-  for (const PlacedNode& placed : nodes) {
-    const tinygltf::Mesh* mesh = MeshOf(asset, placed);
-    if (mesh == nullptr) continue;
-    const size_t instances = InstanceCount(asset.model, asset.model.nodes[placed.node]);
-    for (const tinygltf::Primitive& primitive : mesh->primitives) {
-      if (!IsSurface(primitive)) continue;
-      const size_t more_triangles = ClaimedTriangles(asset, primitive);
-      const size_t more_vertices = ClaimedVertices(asset, primitive);
-      // Divided rather than multiplied, which could overflow.
-      if (more_triangles > (most - triangles) / instances ||
-          more_vertices > (3 * most - vertices) / instances || instances > kMostMeshes - meshes) {
-        throw InputError(asset.file,
-                         fmt::format("/nodes/{}: with its mesh the scene has more than "
-                                     "{} triangles, thrice as many vertices or {} meshes",
-                                     placed.node, most, kMostMeshes));
-      }
-      meshes += instances;
-      triangles += more_triangles * instances;
-      vertices += more_vertices * instances;
-    }
-  }
-}
-
 class MeshPlacer {
  public:
   MeshPlacer(const Asset& asset, const std::vector<PlacedNode>& nodes,
@@ -210,10 +183,35 @@ Mesh CarryToWorld(const Surface& surface, const std::vector<Matrix4d>& M_WM_of_v
   return Carry(surface, [&](size_t v) -> const Matrix4d& { return M_WM_of_vertex[v]; });
 }
 
+void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most) {
+  size_t triangles = 0;
+  size_t vertices = 0;
+  size_t meshes = 0;
+  for (const PlacedNode& placed : nodes) {
+    const tinygltf::Mesh* mesh = MeshOf(asset, placed);
+    if (mesh == nullptr) continue;
+    const size_t instances = InstanceCount(asset.model, asset.model.nodes[placed.node]);
+    for (const tinygltf::Primitive& primitive : mesh->primitives) {
+      if (!IsSurface(primitive)) continue;
+      const size_t more_triangles = ClaimedTriangles(asset, primitive);
+      const size_t more_vertices = ClaimedVertices(asset, primitive);
+      // Divided rather than multiplied, which could overflow.
+      if (more_triangles > (most - triangles) / instances ||
+          more_vertices > (3 * most - vertices) / instances || instances > kMostMeshes - meshes) {
+        throw InputError(asset.file,
+                         fmt::format("/nodes/{}: with its mesh the scene has more than "
+                                     "{} triangles, thrice as many vertices or {} meshes",
+                                     placed.node, most, kMostMeshes));
+      }
+      meshes += instances;
+      triangles += more_triangles * instances;
+      vertices += more_vertices * instances;
+    }
+  }
+}
+
 PlacedMeshes PlaceMeshes(const Asset& asset, const std::vector<PlacedNode>& nodes,
-                         const std::vector<ReadMaterial>& materials, size_t max_triangles,
-                         Notes& notes) {
-  CheckTriangleCount(asset, nodes, max_triangles);
+                         const std::vector<ReadMaterial>& materials, Notes& notes) {
   MeshPlacer placer(asset, nodes, materials, notes);
   PlacedMeshes result;
   for (const PlacedNode& placed : nodes) {

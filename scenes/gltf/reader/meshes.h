@@ -25,9 +25,10 @@ struct PlacedMeshes {
   std::vector<size_t> first_mesh;
 };
 
-/// Throws InputError beyond `max_triangles`, before any of them is read.
 PlacedMeshes PlaceMeshes(const Asset& asset, const std::vector<PlacedNode>& nodes,
-                         const std::vector<ReadMaterial>& materials, size_t max_triangles,
-                         Notes& notes);
+                         const std::vector<ReadMaterial>& materials, Notes& notes);
+
+/// Throws InputError for nodes with more than `most` triangles, before any of them is read.
+void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most);
 
 }  // namespace fenestra::gltf

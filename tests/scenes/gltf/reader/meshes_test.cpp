@@ -28,8 +28,9 @@ Placed Place(const json& document, size_t max_triangles = 1000,
   const TemporaryFolder folder;
   const Asset asset = LoadAsset(folder.Write("scene.gltf", document.dump()), {});
   Notes notes;
-  Placed placed{
-      PlaceMeshes(asset, PlaceNodes(asset, std::nullopt), materials, max_triangles, notes), {}};
+  const std::vector<PlacedNode> nodes = PlaceNodes(asset, std::nullopt);
+  CheckTriangleCount(asset, nodes, max_triangles);
+  Placed placed{PlaceMeshes(asset, nodes, materials, notes), {}};
   placed.notes = notes.Sentences();
   return placed;
 }
