@@ -45,6 +45,7 @@ struct GltfReadOptions {
 
   // Limits on the cost of reading a file from outside, which may claim anything.
   size_t max_file_bytes = size_t{1} << 30;      ///< For each file, and for all of them together.
+  size_t max_memory_bytes = 1'000'000'000;      ///< Estimated, from reading to rendering.
   size_t max_triangles = 20'000'000;            ///< After all instances are placed.
   size_t max_image_pixels = size_t{256} << 20;  ///< For all decoded images together.
 };

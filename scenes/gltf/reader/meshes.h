@@ -28,7 +28,4 @@ struct PlacedMeshes {
 PlacedMeshes PlaceMeshes(const Asset& asset, const std::vector<PlacedNode>& nodes,
                          const std::vector<ReadMaterial>& materials, Notes& notes);
 
-/// Throws InputError for nodes with more than `most` triangles, before any of them is read.
-void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most);
-
 }  // namespace fenestra::gltf

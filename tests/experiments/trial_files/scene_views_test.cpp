@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <opencv2/core.hpp>
@@ -167,6 +168,21 @@ TEST(SceneViews, CoordinatesOfAMapChangeNeitherPictureNorTruth) {
   }
   EXPECT_NEAR(truth("far")["world_origin_in_file_m"][2].get<double>(), p_FW.z(), 2.0);
   EXPECT_EQ(truth("near")["world_origin_in_file_m"][2].get<double>(), 0.0);
+}
+
+// Before anything is rendered: this would take a day.
+TEST(SceneViews, WhatIsTooMuchIsRefusedWithWhatItWouldNeed) {
+  const TemporaryFolder folder;
+  GltfScene world = World(std::vector<SceneCamera>(1000, Before("left", 2.0)));
+  world.scene.lamps.resize(10'000);
+  try {
+    WriteSceneViews(folder.path(), world, Small());
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("1000 views of 6.14 megapixels in all under 10000 lamps"));
+    EXPECT_THAT(error.what(), HasSubstr("more than 120 s"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 // Names may come from a file that someone else wrote.
