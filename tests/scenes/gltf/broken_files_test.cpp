@@ -35,6 +35,39 @@ TEST(BrokenGltf, AllFaultsAreReportedAtOnceWithTheirPlaces) {
   EXPECT_THAT(refusal, HasSubstr("/nodes/0/children: must not be empty"));
 }
 
+// Rules of the specification that no other test's file breaks.
+TEST(BrokenGltf, RulesAboutWhatNothingReadsAreKeptToo) {
+  const auto with = [](const char* pointer, const json& value) {
+    json document = TriangleDocument();
+    document[json::json_pointer(pointer)] = value;
+    return Refusal(document);
+  };
+  EXPECT_THAT(with("/accessors/2",
+                   {{"byteOffset", 0}, {"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}}),
+              HasSubstr("/accessors/2/byteOffset: needs 'bufferView'"));
+  EXPECT_EQ(with("/accessors/2", {{"componentType", 5126}, {"count", 1}, {"type", "SCALAR"}}), "");
+  EXPECT_THAT(with("/accessors/0/normalized", true), HasSubstr("/accessors/0/normalized: only"));
+  EXPECT_EQ(with("/accessors/0/normalized", false), "");
+  json skinned = TriangleDocument();
+  skinned["skins"] = {{{"joints", {0}}}};
+  skinned["nodes"][0]["skin"] = 0;
+  EXPECT_THAT(Refusal(skinned), HasSubstr("/nodes/0/skin: /meshes/0 has no JOINTS_0"));
+}
+
+TEST(BrokenGltf, AContainerWithoutItsBinaryChunkIsRefused) {
+  json document = TriangleDocument();
+  EXPECT_EQ(RefusalOfBytes(testing::Glb({{testing::kJsonChunk, document.dump()}}), "a.glb"), "");
+  document["buffers"][0].erase("uri");
+  EXPECT_THAT(RefusalOfBytes(testing::Glb({{testing::kJsonChunk, document.dump()}}), "a.glb"),
+              HasSubstr("/buffers/0: without a 'uri' it is the binary chunk, which is missing"));
+}
+
+TEST(BrokenGltf, AByteOrderMarkIsRefused) {
+  const std::string text = TriangleDocument().dump();
+  EXPECT_EQ(RefusalOfBytes(text), "");
+  EXPECT_THAT(RefusalOfBytes("\xEF\xBB\xBF" + text), HasSubstr("byte order mark"));
+}
+
 TEST(BrokenGltf, TextThatIsNotJsonIsRefusedWithItsLine) {
   EXPECT_THAT(RefusalOfBytes("{\"asset\":\n  {\"version\" 2}}"), HasSubstr("scene.gltf:2:1"));
   EXPECT_THAT(RefusalOfBytes("{\"asset\": {\"version\": \"\xff\"}}"), HasSubstr("not JSON"));
