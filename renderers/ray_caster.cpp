@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "core/io/faults.h"
 #include "renderers/aov_cast.h"
@@ -93,11 +94,11 @@ void Validate(const RayCasterOptions& options) {
 }
 
 struct RayCaster::Impl {
-  Impl(const Scene& the_scene, const RayCasterOptions& options)
-      : scene(Validated(the_scene)),
+  Impl(Scene&& the_scene, const RayCasterOptions& options)
+      : scene(std::move(the_scene)),
         traced(scene, options.instruction_set),
         surfaces(NumberSurfaces(traced.opaque())),
-        bake(BakeLight(traced, surfaces)),
+        bake(BakeLight(traced, surfaces, options.most_light_points)),
         side_keys(MakeSideKeys(surfaces)),
         illumination(scene, traced, bake, options.bounces) {}
 
@@ -115,8 +116,11 @@ struct RayCaster::Impl {
   Illumination illumination;
 };
 
-RayCaster::RayCaster(const Scene& scene, const RayCasterOptions& options)
-    : impl_(std::make_unique<Impl>(scene, Validated(options))) {}
+RayCaster::RayCaster(Scene scene, const RayCasterOptions& options) {
+  Validate(scene);
+  Validate(options);
+  impl_ = std::make_unique<Impl>(std::move(scene), options);
+}
 
 RayCaster::~RayCaster() = default;
 

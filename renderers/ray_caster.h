@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
 
@@ -19,6 +21,9 @@ struct RayCasterOptions {
   /// Number of diffuse reflections that light undergoes before it reaches what is seen. The light
   /// that is left out is at most ρ^(bounces + 1) of all light in a closed room of reflectance ρ.
   int bounces = 16;
+  /// Number of points at which the light that arrives is computed, by vertex and side. Larger
+  /// scenes have it at these many places, so that their cost is bounded: see BakeLight.
+  size_t most_light_points = SIZE_MAX;
   /// Instruction set that Embree may use. Fenestra's own kernels round alike on all of them, but
   /// Embree's hits differ in their last bits. See docs/performance.md.
   InstructionSet instruction_set = InstructionSet::kBest;
@@ -32,7 +37,7 @@ void Validate(const RayCasterOptions& options);
 /// on the arguments of the calls. Const calls are thread-safe and single-threaded inside.
 class RayCaster {
  public:
-  explicit RayCaster(const Scene& scene, const RayCasterOptions& options = {});
+  explicit RayCaster(Scene scene, const RayCasterOptions& options = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

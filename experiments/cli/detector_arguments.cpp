@@ -117,8 +117,8 @@ DetectorChoice ChooseDetector(const DetectorArguments& arguments, SensorKind sen
 
 void NoteAssumedDepthUnit(const std::filesystem::path& calibration) {
   if (StatesDepthUnit(calibration)) return;
-  fmt::print(stderr, "note: {} states no depth_unit_m: units of 1 mm are assumed\n",
-             calibration.string());
+  Tell(fmt::format("note: {} states no depth_unit_m: units of 1 mm are assumed",
+                   calibration.string()));
 }
 
 void AddPluginOption(Command command, std::vector<std::filesystem::path>& plugins) {

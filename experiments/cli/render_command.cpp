@@ -31,6 +31,7 @@ struct RenderArguments {
 
   std::optional<std::string> target;
   SceneViewOptions view;
+  double memory_gb = 1.0;
   Sky::Model sky_model = Sky::Model::kUniform;
   double sky_lx = 10e3;
   std::optional<double> sun_lx;
@@ -77,7 +78,13 @@ Lighting LightingFor(const RenderArguments& arguments, const GltfScene& world) {
 }
 
 void RenderScene(RenderArguments arguments) {
-  const GltfScene world = ReadGltf(arguments.what, {.target_node = arguments.target});
+  if (!(arguments.memory_gb > 0.0 && arguments.memory_gb <= 1e6)) {
+    throw InputError("--memory-gb", "must be above 0 and at most 1000000");
+  }
+  arguments.view.most_bytes = arguments.memory_gb * 1e9;
+  const GltfScene world = ReadGltf(
+      arguments.what, {.target_node = arguments.target,
+                       .max_memory_bytes = static_cast<size_t>(arguments.view.most_bytes)});
   for (const std::string& note : world.notes) Tell("note: " + note);
   arguments.view.lighting = LightingFor(arguments, world);
   WriteSceneViews(OutputPath::Folder(arguments.out), world, arguments.view);
@@ -106,6 +113,10 @@ void AddSceneOptions(Command command, RenderArguments& arguments) {
   add("--sky-lx", arguments.sky_lx, "Illuminance by the sky [lx]").ShowDefault();
   add("--sun-lx", arguments.sun_lx, "Illuminance by the sun; else as in the file, or 0 [lx]");
   add("--sun-azimuth-deg", arguments.sun_azimuth_deg, "From +z towards +x");
+  add("--memory-gb", arguments.memory_gb, "Scenes that would need more are refused [GB]")
+      .ShowDefault();
+  add("--seconds", arguments.view.most_seconds, "Views that would take longer are refused [s]")
+      .ShowDefault();
   add("--sun-elevation-deg", arguments.sun_elevation_deg, "Above the horizon");
 }
 

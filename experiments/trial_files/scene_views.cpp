@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
 
 #include "core/io/faults.h"
 #include "core/io/image_io.h"
@@ -20,8 +22,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Enough for light to vary over a building; the bake takes about a second.
+// Enough for light to vary over a building.
 constexpr size_t kTriangles = 20000;
+// However many triangles there are, the bake takes no more than about five seconds.
+constexpr size_t kLightPoints = 8000;
+
+// Of all that is written about a pixel, in memory; and of the time for it on one core, where every
+// pixel has an edge, without lamps and for each lamp.
+constexpr double kBytesPerPixel = 250.0;
+constexpr double kSecondsPerPixel = 30e-6;
+constexpr double kSecondsPerLampAndPixel = 3e-6;
+// Of the light of one lamp on both sides of a triangle.
+constexpr double kSecondsPerLampAndTriangle = 4e-6;
 
 Pose LookingAt(const Vector3d& p_WC, const Vector3d& p_WQ) {
   const Vector3d forward = (p_WQ - p_WC).normalized();
@@ -90,7 +102,7 @@ cv::Mat Picture(const cv::Mat& radiance) {
 }
 
 void WriteView(const OutputPath& folder, const RayCaster& caster, const SceneCamera& camera,
-               const Lighting& lighting) {
+               const Lighting& lighting, const Vector3d& p_FW) {
   const RayGrid rays(camera.model);
   const auto render = [&](Band band) -> cv::Mat {
     return caster.Render(rays, camera.X_WC, lighting, {.band = band}, RandomStream(0));
@@ -106,9 +118,12 @@ void WriteView(const OutputPath& folder, const RayCaster& caster, const SceneCam
   const std::array<PlacedCamera, 1> cameras = {PlacedCamera{camera.model, camera.X_WC}};
   WritePng(folder / "color.png", Picture(color));
   WritePng(folder / "infrared.png", Picture(infrared));
-  WriteExr(folder / "scene.exr", channels, CameraMetadata(camera.model, camera.X_WC));
-  WriteFileAtomically(folder / "truth.json",
-                      TruthJson(MakeGroundTruth(caster.scene(), camera.X_WC, cameras), "camera"));
+  std::map<std::string, std::string> metadata = CameraMetadata(camera.model, camera.X_WC);
+  metadata["world_origin_in_file"] = fmt::format("{} {} {} m", p_FW.x(), p_FW.y(), p_FW.z());
+  WriteExr(folder / "scene.exr", channels, metadata);
+  WriteFileAtomically(
+      folder / "truth.json",
+      TruthJson(MakeGroundTruth(caster.scene(), camera.X_WC, cameras), "camera", p_FW));
 }
 
 // Names become folders, and may come from a file that someone else wrote.
@@ -158,13 +173,47 @@ std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOption
                                            DidYouMean(*options.camera, names)));
 }
 
+namespace {
+
+// The work that does not depend on the surfaces alone, whose cost the reader limits.
+void CheckCost(const Scene& scene, const std::vector<SceneCamera>& cameras,
+               const SceneViewOptions& options) {
+  double pixels = 0.0;
+  double largest = 0.0;
+  for (const SceneCamera& camera : cameras) {
+    const double own = 1.0 * camera.model.width_px() * camera.model.height_px();
+    pixels += own;
+    largest = std::max(largest, own);
+  }
+  double triangles = kTriangles;
+  for (const Mesh& mesh : scene.meshes) triangles += static_cast<double>(mesh.triangles.size());
+  const auto lamps = static_cast<double>(scene.lamps.size());
+  const double seconds = pixels * (kSecondsPerPixel + lamps * kSecondsPerLampAndPixel) +
+                         lamps * triangles * kSecondsPerLampAndTriangle;
+  const double bytes = largest * kBytesPerPixel;
+  const std::string views =
+      fmt::format("{} view{} of {:.3g} megapixels in all under {} lamps", cameras.size(),
+                  cameras.size() == 1 ? "" : "s", pixels / 1e6, scene.lamps.size());
+  Faults faults("render");
+  faults.Require(seconds <= options.most_seconds,
+                 fmt::format("{} would take about {:.2g} s, more than {:.0f} s (--seconds)", views,
+                             seconds, options.most_seconds));
+  faults.Require(bytes <= options.most_bytes,
+                 fmt::format("{} would need about {:.2g} GB, more than {:.2g} GB (--memory-gb)",
+                             views, bytes / 1e9, options.most_bytes / 1e9));
+  faults.ThrowIfAny();
+}
+
+}  // namespace
+
 void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
                      const SceneViewOptions& options) {
   const std::vector<SceneCamera> cameras = CamerasOf(world, options);
-  const RayCaster caster(Tessellated(world.scene, EdgeForTriangles(world.scene, kTriangles)));
+  CheckCost(world.scene, cameras, options);
+  const RayCaster caster(Tessellated(world.scene, kTriangles), {.most_light_points = kLightPoints});
   std::set<std::string> used;
   for (const SceneCamera& camera : cameras) {
-    WriteView(folder / FolderName(camera.name, used), caster, camera, options.lighting);
+    WriteView(folder / FolderName(camera.name, used), caster, camera, options.lighting, world.p_FW);
   }
 }
 

@@ -20,6 +20,9 @@ struct SceneViewOptions {
   int width_px = 752;
   int height_px = 480;
   Lighting lighting = {};
+  /// Views that are estimated to need more are refused before work begins.
+  double most_seconds = 120.0;
+  double most_bytes = 1e9;
 };
 
 /// The cameras that the options ask for. A scene without any is seen from the front: its target
@@ -33,6 +36,8 @@ std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOption
 ///     infrared.png  the same at 830 nm
 ///     scene.exr     radiance in R, G, B and at 830 nm, and all per-pixel truth (see AovChannels)
 ///     truth.json    pose and windows
+///
+/// Throws InputError for views that need more than the options allow.
 ///
 /// Surfaces that are not closed are tessellated first, as light is known at vertices.
 void WriteSceneViews(const OutputPath& folder, const GltfScene& world,

@@ -129,8 +129,10 @@ double VisibleShare(const TruthImages& images, const WindowTruth& window, double
   return visible == 0 ? 0.0 : static_cast<double>(visible) / (visible + hidden);
 }
 
-std::string TruthJson(const GroundTruth& truth, const std::string& camera) {
-  ordered_json json = {{"world_from_" + camera, ToJson(truth.X_WC)}};
+std::string TruthJson(const GroundTruth& truth, const std::string& camera,
+                      const Eigen::Vector3d& p_FW) {
+  ordered_json json = {{"world_origin_in_file_m", ToJson(p_FW)},
+                       {"world_from_" + camera, ToJson(truth.X_WC)}};
   json.update(Windows(truth));
   return json.dump(2) + "\n";
 }

@@ -20,9 +20,11 @@ namespace fenestra {
 /// that are too narrow for that are left out, and without any other point the share is 0.
 double VisibleShare(const TruthImages& images, const WindowTruth& window, double border_m);
 
-/// {"world_from_<camera>": pose, "target_in_view": …, "target": window or null, "other_windows":
-/// […]} where a window has its centroid, corners and normal in the camera, and its sizes.
-std::string TruthJson(const GroundTruth& truth, const std::string& camera);
+/// {"world_origin_in_file_m": p_FW, "world_from_<camera>": pose, "target_in_view": …, "target":
+/// window or null, "other_windows": […]} where a window has its centroid, corners and normal in the
+/// camera, and its sizes. What has the position p in the world has p_FW + p in the scene's file.
+std::string TruthJson(const GroundTruth& truth, const std::string& camera,
+                      const Eigen::Vector3d& p_FW);
 
 /// The cameras of a sensor, the scored one first.
 struct NamedCamera {

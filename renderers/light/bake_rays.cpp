@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace fenestra {
@@ -79,6 +82,60 @@ SharedCorners FindSharedCorners(const TriangleSoup& soup, const std::vector<uint
     shared.of_triangle.push_back(ids);
   }
   return shared;
+}
+
+namespace {
+
+// The index of each corner among the cells of this size, in the order of their first corners;
+// nothing if there are more than `most` cells.
+std::optional<std::vector<size_t>> CellsOf(const std::vector<SharedCorner>& corners, double size_m,
+                                           size_t most) {
+  // Wide enough for neighbours on a curved surface, and for no two faces of a box.
+  constexpr float kDirectionStep = 1.0f / 1.5f;
+  std::map<std::array<int64_t, 7>, size_t> cells;
+  std::vector<size_t> cell_of;
+  for (const SharedCorner& corner : corners) {
+    std::array<int64_t, 7> key{};
+    for (size_t k = 0; k < 3; ++k) {
+      const auto axis = static_cast<glm::length_t>(k);
+      key[k] = static_cast<int64_t>(std::floor(static_cast<double>(corner.p_W[axis]) / size_m));
+      key[k + 3] = std::lround(corner.n_W[axis] / kDirectionStep);
+    }
+    key[6] = corner.is_closed ? 1 : 0;
+    cell_of.push_back(cells.try_emplace(key, cells.size()).first->second);
+    if (cells.size() > most) return std::nullopt;
+  }
+  return cell_of;
+}
+
+}  // namespace
+
+SharedCorners Thinned(SharedCorners shared, size_t most) {
+  if (shared.corners.size() <= most) return shared;
+  vec3 low(std::numeric_limits<float>::max());
+  vec3 high(std::numeric_limits<float>::lowest());
+  for (const SharedCorner& corner : shared.corners) {
+    low = glm::min(low, corner.p_W);
+    high = glm::max(high, corner.p_W);
+  }
+  // From a grid that is finer than any that is wanted to one with a cell on each side of the
+  // origin, where directions alone differ.
+  constexpr int kFinest = -20;
+  const double extent_m =
+      std::max(glm::length(glm::dvec3(high)) + glm::length(glm::dvec3(low)), 1e-30);
+  std::optional<std::vector<size_t>> cell_of;
+  for (int k = kFinest; !cell_of && k <= 0; ++k) {
+    cell_of = CellsOf(shared.corners, std::ldexp(extent_m, k), k < 0 ? most : SIZE_MAX);
+  }
+  SharedCorners thinned;
+  for (size_t i = 0; i < shared.corners.size(); ++i) {
+    if ((*cell_of)[i] == thinned.corners.size()) thinned.corners.push_back(shared.corners[i]);
+  }
+  for (std::array<size_t, 3> ids : shared.of_triangle) {
+    for (size_t& id : ids) id = (*cell_of)[id];
+    thinned.of_triangle.push_back(ids);
+  }
+  return thinned;
 }
 
 HemisphereDirections MakeHemisphereDirections() {

@@ -39,6 +39,11 @@ struct SharedCorners {
 
 SharedCorners FindSharedCorners(const TriangleSoup& soup, const std::vector<uint32_t>& surfaces);
 
+/// The same triangles with at most `most` corners (but at least one for each of a few dozen
+/// directions): those that are in one cell of a grid and face alike become one, the first of them.
+/// The cells are as small as that allows; corners that are few enough stay as they are.
+SharedCorners Thinned(SharedCorners shared, size_t most);
+
 /// The hemisphere about +z is divided into kHemisphereCells x kHemisphereCells compact cells of
 /// equal cosine-weighted solid angle.
 inline constexpr int kHemisphereCells = 24;

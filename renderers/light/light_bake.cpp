@@ -203,6 +203,9 @@ bool IsSupportingPlane(const TracedScene& scene, const vec3& p, const vec3& n) {
          std::ranges::all_of(scene.panes().positions_W, behind);
 }
 
+// Comparisons of a position with a plane that are worth the rays they save.
+constexpr size_t kMostComparisons = 2'000'000'000;
+
 // Adds the points of all corners; returns those of each corner's front and back.
 std::vector<std::array<uint32_t, 2>> BakeCorners(const TracedScene& scene,
                                                  const std::vector<SharedCorner>& corners,
@@ -213,6 +216,10 @@ std::vector<std::array<uint32_t, 2>> BakeCorners(const TracedScene& scene,
   std::vector<std::array<uint32_t, 2>> points(corners.size(),
                                               {LightBake::kNoPoint, LightBake::kNoPoint});
   bake.first_factor.push_back(0);
+  // Of the planes beyond these, rays find the same, if later.
+  size_t planes_left =
+      kMostComparisons /
+      std::max<size_t>(scene.opaque().positions_W.size() + scene.panes().positions_W.size(), 1);
   const auto new_view = [&bake](const LightBake::OpenView& view) {
     bake.open_views.push_back(view);
     return static_cast<uint32_t>(bake.open_views.size() - 1);
@@ -225,7 +232,8 @@ std::vector<std::array<uint32_t, 2>> BakeCorners(const TracedScene& scene,
       if (!corners[i].is_smooth) {
         const auto [entry, is_new] =
             view_of_plane.try_emplace({corners[i].surface, front}, kObstructed);
-        if (is_new && IsSupportingPlane(scene, point.p_W, point.n_W)) {
+        if (is_new && planes_left > 0 && planes_left-- > 0 &&
+            IsSupportingPlane(scene, point.p_W, point.n_W)) {
           entry->second = new_view(baker.UnobstructedView(point));
         }
         view = entry->second;
@@ -245,8 +253,11 @@ std::vector<std::array<uint32_t, 2>> BakeCorners(const TracedScene& scene,
 
 }  // namespace
 
-LightBake BakeLight(const TracedScene& scene, const std::vector<uint32_t>& surfaces) {
-  const SharedCorners shared = FindSharedCorners(scene.opaque(), surfaces);
+LightBake BakeLight(const TracedScene& scene, const std::vector<uint32_t>& surfaces,
+                    size_t most_points) {
+  // A corner has a point on each side.
+  const SharedCorners shared =
+      Thinned(FindSharedCorners(scene.opaque(), surfaces), most_points / 2);
   LightBake bake;
   const auto points = BakeCorners(scene, shared.corners, bake);
   bake.corners.reserve(2 * shared.of_triangle.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -22,11 +23,14 @@ struct SceneCamera {
 
 /// The contents of a glTF file in Fenestra's terms. docs/gltf.md describes the mapping.
 struct GltfScene {
+  /// In the world frame W. A file that stands far from the origin of its own frame F is moved: the
+  /// origin of W is p_FW there, and the axes are the same.
   Scene scene;
   std::vector<SceneCamera> cameras;
   std::optional<Sun> sun;
   /// One sentence for each thing in the file that Fenestra leaves out or approximates.
   std::vector<std::string> notes;
+  Eigen::Vector3d p_FW = Eigen::Vector3d::Zero();  ///< Whole metres.
 };
 
 struct GltfReadOptions {
@@ -41,6 +45,7 @@ struct GltfReadOptions {
 
   // Limits on the cost of reading a file from outside, which may claim anything.
   size_t max_file_bytes = size_t{1} << 30;      ///< For each file, and for all of them together.
+  size_t max_memory_bytes = 1'000'000'000;      ///< Estimated, from reading to rendering.
   size_t max_triangles = 20'000'000;            ///< After all instances are placed.
   size_t max_image_pixels = size_t{256} << 20;  ///< For all decoded images together.
 };

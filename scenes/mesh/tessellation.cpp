@@ -1,59 +1,67 @@
 #include "scenes/mesh/tessellation.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <queue>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
-
-#include "core/io/input_error.h"
 
 namespace fenestra {
 namespace {
 
+// The middle of two neighbouring floats is one of them: such an edge cannot be halved.
+bool CanBeHalved(const glm::vec3& a, const glm::vec3& b) {
+  const glm::vec3 middle = 0.5f * a + 0.5f * b;
+  return middle != a && middle != b;
+}
+
+double SquaredLength(const glm::vec3& a, const glm::vec3& b) {
+  const glm::dvec3 along = glm::dvec3(b) - glm::dvec3(a);
+  return glm::dot(along, along);
+}
+
+// Halves triangles of one mesh at their longest edges.
 class MeshSplitter {
  public:
-  MeshSplitter(const Mesh& mesh, double longest_edge_m)
-      : longest_sq_(longest_edge_m * longest_edge_m), mesh_(mesh) {
-    mesh_.triangles.clear();
-    for (const glm::uvec3& triangle : mesh.triangles) Split(triangle);
+  explicit MeshSplitter(Mesh& mesh) : mesh_(mesh) {}
+
+  /// 0 where the longest edge cannot be halved.
+  double LongestSquared(size_t triangle) const {
+    const glm::uvec3& t = mesh_.triangles[triangle];
+    const int k = LongestOf(t);
+    const glm::vec3& a = mesh_.positions_W[t[k]];
+    const glm::vec3& b = mesh_.positions_W[t[(k + 1) % 3]];
+    return CanBeHalved(a, b) ? SquaredLength(a, b) : 0.0;
   }
 
-  Mesh Take() { return std::move(mesh_); }
+  /// One half takes the triangle's place, the other becomes the last triangle.
+  void Halve(size_t triangle) {
+    const glm::uvec3 t = mesh_.triangles[triangle];
+    const int k = LongestOf(t);
+    const uint32_t a = t[k];
+    const uint32_t b = t[(k + 1) % 3];
+    const uint32_t c = t[(k + 2) % 3];
+    const uint32_t m = Middle(a, b);
+    mesh_.triangles[triangle] = {a, m, c};
+    mesh_.triangles.emplace_back(m, b, c);
+  }
 
  private:
-  double LengthSquared(uint32_t a, uint32_t b) const {
-    const glm::dvec3 edge = glm::dvec3(mesh_.positions_W[a]) - glm::dvec3(mesh_.positions_W[b]);
-    return glm::dot(edge, edge);
-  }
-
-  void Split(const glm::uvec3& triangle) {
-    std::vector<glm::uvec3> open = {triangle};
-    while (!open.empty()) {
-      const glm::uvec3 t = open.back();
-      open.pop_back();
-      int longest = 0;
-      for (int k = 1; k < 3; ++k) {
-        if (LengthSquared(t[k], t[(k + 1) % 3]) > LengthSquared(t[longest], t[(longest + 1) % 3])) {
-          longest = k;
-        }
+  int LongestOf(const glm::uvec3& t) const {
+    int longest = 0;
+    double longest_sq = -1.0;
+    for (int k = 0; k < 3; ++k) {
+      const double sq = SquaredLength(mesh_.positions_W[t[k]], mesh_.positions_W[t[(k + 1) % 3]]);
+      if (sq > longest_sq) {
+        longest = k;
+        longest_sq = sq;
       }
-      const uint32_t a = t[longest];
-      const uint32_t b = t[(longest + 1) % 3];
-      const uint32_t c = t[(longest + 2) % 3];
-      if (LengthSquared(a, b) <= longest_sq_) {
-        mesh_.triangles.push_back(t);
-        continue;
-      }
-      const uint32_t m = Middle(a, b);
-      open.emplace_back(m, b, c);
-      open.emplace_back(a, m, c);
     }
+    return longest;
   }
 
   uint32_t Middle(uint32_t a, uint32_t b) {
@@ -71,7 +79,7 @@ class MeshSplitter {
 
   template <typename T>
   static void AppendMean(std::vector<T>& values, uint32_t a, uint32_t b) {
-    if (!values.empty()) values.push_back(0.5f * (values[a] + values[b]));
+    if (!values.empty()) values.push_back(0.5f * values[a] + 0.5f * values[b]);
   }
 
   // The mean of opposite normals has no direction; either will do.
@@ -80,20 +88,21 @@ class MeshSplitter {
     return length > 1e-3f ? mean / length : mesh_.normals_W[a];
   }
 
-  double longest_sq_;
-  Mesh mesh_;
+  Mesh& mesh_;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles_;
 };
 
-double Area(const Mesh& mesh) {
-  double area_m2 = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 a = mesh.positions_W[t.x];
-    area_m2 += 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions_W[t.y]) - a,
-                                            glm::dvec3(mesh.positions_W[t.z]) - a));
+// A triangle that waits for being halved; the one with the longest edge is first.
+struct Halvable {
+  double longest_sq;
+  size_t mesh;
+  size_t triangle;
+
+  bool operator<(const Halvable& other) const {
+    return std::tie(longest_sq, other.mesh, other.triangle) <
+           std::tie(other.longest_sq, mesh, triangle);
   }
-  return area_m2;
-}
+};
 
 constexpr uint32_t kWhole = std::numeric_limits<uint32_t>::max();
 
@@ -103,7 +112,8 @@ struct Edge {
   uint32_t a;
   uint32_t b;
   double squared_length;
-  bool marked;               // To be split.
+  bool can_be_halved;
+  bool marked = false;       // To be split.
   uint32_t middle = kWhole;  // Its position, once it is split.
 };
 
@@ -150,11 +160,14 @@ class EdgeTable {
     const uint64_t key = (static_cast<uint64_t>(a) << 32) | b;
     const auto [entry, is_new] = index_.try_emplace(key, static_cast<uint32_t>(edges_.size()));
     if (is_new) {
-      const glm::dvec3 along =
-          glm::dvec3(surface_.positions_W[b]) - glm::dvec3(surface_.positions_W[a]);
-      Edge edge{.a = a, .b = b, .squared_length = glm::dot(along, along), .marked = false};
+      const glm::vec3& p_a = surface_.positions_W[a];
+      const glm::vec3& p_b = surface_.positions_W[b];
+      Edge edge{.a = a,
+                .b = b,
+                .squared_length = SquaredLength(p_a, p_b),
+                .can_be_halved = CanBeHalved(p_a, p_b)};
       const double allowed_m = longest_edge_m_(MiddleOf(edge));
-      edge.marked = edge.squared_length > allowed_m * allowed_m;
+      edge.marked = edge.can_be_halved && edge.squared_length > allowed_m * allowed_m;
       edges_.push_back(edge);
     }
     return entry->second;
@@ -173,7 +186,7 @@ void MarkLongestOfMarked(const SolidSurface& surface, EdgeTable& table) {
     changed = false;
     for (size_t t = 0; t < surface.triangles.size(); ++t) {
       Edge& longest = table.EdgeOf(t, table.LongestOf(t));
-      if (longest.marked) continue;
+      if (longest.marked || !longest.can_be_halved) continue;
       for (int k = 0; k < 3; ++k) longest.marked |= table.EdgeOf(t, k).marked;
       changed |= longest.marked;
     }
@@ -212,31 +225,35 @@ void SplitTriangle(const SolidSurface::Triangle& triangle, size_t index, EdgeTab
 
 }  // namespace
 
-Scene Tessellated(const Scene& scene, double longest_edge_m) {
-  if (!(longest_edge_m > 0.0)) {
-    throw InputError("tessellation",
-                     fmt::format("the longest edge must be positive, not {} m", longest_edge_m));
-  }
-  Scene result = scene;
-  if (std::isinf(longest_edge_m)) return result;
-  for (Mesh& mesh : result.meshes) {
-    if (!mesh.closed) mesh = MeshSplitter(mesh, longest_edge_m).Take();
-  }
-  return result;
-}
-
-double EdgeForTriangles(const Scene& scene, size_t triangles) {
-  double area_m2 = 0.0;
+Scene Tessellated(Scene scene, size_t triangles) {
   size_t count = 0;
-  for (const Mesh& mesh : scene.meshes) {
-    if (mesh.closed) continue;
-    area_m2 += Area(mesh);
-    count += mesh.triangles.size();
+  for (const Mesh& mesh : scene.meshes) count += mesh.closed ? 0 : mesh.triangles.size();
+  if (count >= triangles) return scene;
+
+  std::vector<MeshSplitter> splitters;
+  std::priority_queue<Halvable> waiting;
+  const auto wait = [&](size_t mesh, size_t triangle) {
+    const double longest_sq = splitters[mesh].LongestSquared(triangle);
+    if (longest_sq > 0.0) waiting.push({longest_sq, mesh, triangle});
+  };
+  for (size_t m = 0; m < scene.meshes.size(); ++m) {
+    splitters.emplace_back(scene.meshes[m]);
+    if (scene.meshes[m].closed) continue;
+    for (size_t t = 0; t < scene.meshes[m].triangles.size(); ++t) wait(m, t);
   }
-  if (count >= triangles) return std::numeric_limits<double>::infinity();
-  // Halved right triangles have an area of about a fourth of their longest edge squared.
-  const double each_m2 = area_m2 / static_cast<double>(triangles - count);
-  return area_m2 > 0.0 ? std::sqrt(4.0 * each_m2) : std::numeric_limits<double>::infinity();
+  // The neighbours of an edge have it halved too: no edge that is as long as it may stay.
+  double last_sq = 0.0;
+  while (!waiting.empty() && count < 2 * triangles) {
+    const Halvable longest = waiting.top();
+    if (count >= triangles && longest.longest_sq < last_sq) break;
+    waiting.pop();
+    last_sq = longest.longest_sq;
+    splitters[longest.mesh].Halve(longest.triangle);
+    ++count;
+    wait(longest.mesh, longest.triangle);
+    wait(longest.mesh, scene.meshes[longest.mesh].triangles.size() - 1);
+  }
+  return scene;
 }
 
 void BisectLongEdges(SolidSurface& surface,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/vec3.hpp>
 
@@ -8,22 +9,20 @@
 
 namespace fenestra {
 
-/// The scene with all edges at most `longest_edge_m` long, for light that is known at vertices. A
-/// longer edge is halved in all its triangles until it is short enough, so that triangles that
-/// share an edge still share it. Texture coordinates, colours and normals are interpolated. Closed
-/// meshes stay as they are, since their vertices were chosen where the solids were made. Windows
-/// stay the same.
+/// The scene with its surfaces cut into at least so many triangles, and at most twice as many,
+/// for light that is known at vertices. The longest edge is halved first, in all its triangles, so
+/// that triangles that share an edge still share it. Texture coordinates, colours and normals are
+/// interpolated. Closed meshes do not count and stay as they are, since their vertices were chosen
+/// where the solids were made. Windows stay the same.
 ///
-/// Throws InputError unless the length is positive.
-Scene Tessellated(const Scene& scene, double longest_edge_m);
-
-/// A length that splits the scene's surface into about this many triangles [m]; infinite if there
-/// are that many already.
-double EdgeForTriangles(const Scene& scene, size_t triangles);
+/// Each step makes one more triangle, so this ends for any coordinates. Where they are so large
+/// that no float lies between the ends of an edge, the edge stays, and there are fewer triangles.
+Scene Tessellated(Scene scene, size_t triangles);
 
 /// Splits edges until none is longer than what `longest_edge_m` allows at its middle. An edge is
 /// split in all its triangles, of all solids, so a surface without cracks and T-junctions stays
-/// one, and fine parts do not make the whole wall fine.
+/// one, and fine parts do not make the whole wall fine. An edge without a float between its ends
+/// stays as it is.
 ///
 /// Source: M.-C. Rivara, "Algorithms for refining triangular grids suitable for adaptive and
 /// multigrid techniques", Int. J. Numer. Methods Eng. 20 (1984): triangles are bisected at their

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "renderers/light/lane_kernels.h"
 #include "renderers/light/light_transport.h"
@@ -258,7 +259,7 @@ void BM_RenderTriangles(benchmark::State& state) {
   const auto wanted = static_cast<size_t>(state.range(0));
   Scene scene = wall;
   scene.meshes[0].closed = false;
-  scene = Tessellated(scene, EdgeForTriangles(scene, wanted));
+  scene = Tessellated(std::move(scene), wanted);
   const RayCaster caster(scene);
   const RayGrid rays(StereoCamera());
   caster.Render(RayGrid(CameraModel::Pinhole(16, 16, 20.0)), InFront(), Daylight(), {},

@@ -19,8 +19,9 @@ using nlohmann::json;
 // Deepest nesting that is read, since readers of JSON trees recurse. glTF 2.0 with our extensions
 // needs about 10.
 constexpr int kDeepestNesting = 64;
-// A value costs some ten times its text in memory. The largest honest scenes have some thousands.
-constexpr size_t kMostValues = 5'000'000;
+// A node without members, two values, takes a kilobyte. The largest honest scenes have some
+// thousands.
+constexpr size_t kMostValues = 1'500'000;
 
 constexpr size_t kHeaderBytes = 12;
 constexpr size_t kChunkHeaderBytes = 8;
@@ -147,6 +148,9 @@ void CheckCost(const std::filesystem::path& file, std::string_view text) {
 }
 
 json ParseJson(const std::filesystem::path& file, std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    throw InputError(file, "begins with a byte order mark, which glTF forbids");
+  }
   CheckCost(file, text);
   try {
     return json::parse(text.begin(), text.end());
@@ -165,13 +169,19 @@ Document ReadDocument(const std::filesystem::path& file, ByteBudget& budget) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   // The file's extension does not decide: a wrong one should not matter, and damaged magic bytes of
   // a .glb are reported as such.
-  if (text.starts_with("glTF") || LowerExtension(file) == ".glb") {
+  const bool is_binary = text.starts_with("glTF") || LowerExtension(file) == ".glb";
+  if (is_binary) {
     const GlbChunks chunks = SplitGlb(file, bytes);
     text = chunks.json;
     if (chunks.binary) document.binary_chunk.emplace(chunks.binary->begin(), chunks.binary->end());
   }
   document.json = ParseJson(file, text);
   if (!document.json.is_object()) throw InputError(file, "the JSON is not an object");
+  const json::json_pointer first("/buffers/0");
+  if (is_binary && !document.binary_chunk && document.json.contains(first) &&
+      !document.json[first].contains("uri")) {
+    throw InputError(file, "/buffers/0: without a 'uri' it is the binary chunk, which is missing");
+  }
   return document;
 }
 

@@ -8,9 +8,11 @@
 #include "scenes/gltf/file/document.h"
 #include "scenes/gltf/reader/asset.h"
 #include "scenes/gltf/reader/cameras_and_lights.h"
+#include "scenes/gltf/reader/cost.h"
 #include "scenes/gltf/reader/images.h"
 #include "scenes/gltf/reader/materials.h"
 #include "scenes/gltf/reader/meshes.h"
+#include "scenes/gltf/reader/origin.h"
 #include "scenes/gltf/reader/placement.h"
 #include "scenes/gltf/reader/windows.h"
 
@@ -48,14 +50,18 @@ GltfScene ReadGltf(const std::filesystem::path& file, const GltfReadOptions& opt
 
   gltf::Notes notes;
   NoteWhatIsIgnored(asset, notes);
-  const std::vector<gltf::PlacedNode> nodes = gltf::PlaceNodes(asset, options.scene_index);
-  gltf::ReadMaterials materials = gltf::ConvertMaterials(asset, options.max_image_pixels, notes);
-  gltf::PlacedMeshes meshes =
-      gltf::PlaceMeshes(asset, nodes, materials.materials, options.max_triangles, notes);
+  std::vector<gltf::PlacedNode> nodes = gltf::PlaceNodes(asset, options.scene_index);
+  const size_t bytes_left = gltf::CheckCost(asset, nodes, options);
+  const Eigen::Vector3d p_FW = gltf::ChooseOrigin(asset, nodes, options.target_node, notes);
+  nodes = gltf::MovedTo(p_FW, std::move(nodes));
+  gltf::ReadMaterials materials = gltf::ConvertMaterials(
+      asset, std::min(options.max_image_pixels, bytes_left / gltf::kBytesPerTexel), notes);
+  gltf::PlacedMeshes meshes = gltf::PlaceMeshes(asset, nodes, materials.materials, notes);
   gltf::Windows windows = gltf::FindWindows(asset, nodes, meshes, options.target_node);
   gltf::Lights lights = gltf::ReadLights(asset, nodes, notes);
 
   GltfScene result;
+  result.p_FW = p_FW;
   result.cameras = gltf::ReadCameras(asset, nodes, options.camera_height_px, notes);
   result.sun = lights.sun;
   Scene& scene = result.scene;

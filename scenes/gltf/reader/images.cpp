@@ -163,8 +163,9 @@ Picture DecodeImage(const Asset& asset, size_t image, PixelBudget& budget) {
   if (const auto fault = FaultOf(header)) Refuse(asset, image, *fault);
   if (!budget.Take(size_t{header.width_px} * header.height_px)) {
     Refuse(asset, image,
-           fmt::format("{} x {} more pixels are more than is read for one scene", header.width_px,
-                       header.height_px));
+           fmt::format("with its {} x {} pixels the scene would need more memory than it may have "
+                       "(--memory-gb)",
+                       header.width_px, header.height_px));
   }
   const cv::Mat decoded = Decode(asset, image);
   const cv::Mat4b rgba = ToRgba(asset, image, decoded);

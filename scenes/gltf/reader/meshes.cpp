@@ -7,9 +7,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "core/io/input_error.h"
 #include "scenes/gltf/tinygltf.h"
-#include "scenes/gltf/validation/extensions.h"
 
 namespace fenestra::gltf {
 namespace {
@@ -73,39 +71,9 @@ Mesh Carry(const Surface& surface, const TransformOf& transform_of) {
 
 using Eigen::Matrix4d;
 
-// Most meshes of one scene: each is an object with arrays of its own, which takes half a kilobyte.
-constexpr size_t kMostMeshes = 1'000'000;
-
 const tinygltf::Mesh* MeshOf(const Asset& asset, const PlacedNode& placed) {
   const int mesh = asset.model.nodes[placed.node].mesh;
   return placed.is_visible && mesh >= 0 ? &asset.model.meshes[static_cast<size_t>(mesh)] : nullptr;
-}
-
-void CheckTriangleCount(const Asset& asset, const std::vector<PlacedNode>& nodes, size_t most) {
-  size_t triangles = 0;
-  size_t vertices = 0;
-  size_t meshes = 0;
-  for (const PlacedNode& placed : nodes) {
-    const tinygltf::Mesh* mesh = MeshOf(asset, placed);
-    if (mesh == nullptr) continue;
-    const size_t instances = InstanceCount(asset.model, asset.model.nodes[placed.node]);
-    for (const tinygltf::Primitive& primitive : mesh->primitives) {
-      if (!IsSurface(primitive)) continue;
-      const size_t more_triangles = ClaimedTriangles(asset, primitive);
-      const size_t more_vertices = ClaimedVertices(asset, primitive);
-      // Divided rather than multiplied, which could overflow.
-      if (more_triangles > (most - triangles) / instances ||
-          more_vertices > (3 * most - vertices) / instances || instances > kMostMeshes - meshes) {
-        throw InputError(asset.file,
-                         fmt::format("/nodes/{}: with its mesh the scene has more than "
-                                     "{} triangles, thrice as many vertices or {} meshes",
-                                     placed.node, most, kMostMeshes));
-      }
-      meshes += instances;
-      triangles += more_triangles * instances;
-      vertices += more_vertices * instances;
-    }
-  }
 }
 
 class MeshPlacer {
@@ -211,9 +179,7 @@ Mesh CarryToWorld(const Surface& surface, const std::vector<Matrix4d>& M_WM_of_v
 }
 
 PlacedMeshes PlaceMeshes(const Asset& asset, const std::vector<PlacedNode>& nodes,
-                         const std::vector<ReadMaterial>& materials, size_t max_triangles,
-                         Notes& notes) {
-  CheckTriangleCount(asset, nodes, max_triangles);
+                         const std::vector<ReadMaterial>& materials, Notes& notes) {
   MeshPlacer placer(asset, nodes, materials, notes);
   PlacedMeshes result;
   for (const PlacedNode& placed : nodes) {

@@ -25,9 +25,7 @@ struct PlacedMeshes {
   std::vector<size_t> first_mesh;
 };
 
-/// Throws InputError beyond `max_triangles`, before any of them is read.
 PlacedMeshes PlaceMeshes(const Asset& asset, const std::vector<PlacedNode>& nodes,
-                         const std::vector<ReadMaterial>& materials, size_t max_triangles,
-                         Notes& notes);
+                         const std::vector<ReadMaterial>& materials, Notes& notes);
 
 }  // namespace fenestra::gltf

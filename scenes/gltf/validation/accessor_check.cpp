@@ -133,6 +133,10 @@ void CheckAccessors(const tinygltf::Model& model, const std::vector<uint64_t>& b
                  fmt::format("{} elements without data; at most {} are read", accessor.count,
                              kMostUndefinedComponents / layout.ComponentCount()));
     }
+    if (accessor.normalized && (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+                                accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)) {
+      faults.Add(at + "/normalized", "only integers of 8 or 16 bits may be normalised");
+    }
     for (const auto& [name, bounds] :
          {std::pair("min", &accessor.minValues), std::pair("max", &accessor.maxValues)}) {
       if (bounds->empty() || bounds->size() == layout.ComponentCount()) continue;

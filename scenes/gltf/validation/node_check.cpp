@@ -77,6 +77,11 @@ void CheckNode(const tinygltf::Model& model, const tinygltf::Node& node, const s
   }
   const tinygltf::Primitive& primitive =
       model.meshes[static_cast<size_t>(node.mesh)].primitives.front();
+  for (const auto& part : model.meshes[static_cast<size_t>(node.mesh)].primitives) {
+    if (node.skin < 0 || part.attributes.contains("JOINTS_0")) continue;
+    faults.Add(at + "/skin", fmt::format("/meshes/{} has no JOINTS_0 to be moved by", node.mesh));
+    break;
+  }
   if (!node.weights.empty() && node.weights.size() != primitive.targets.size()) {
     faults.Add(at + "/weights", fmt::format("{} weights for {} morph targets", node.weights.size(),
                                             primitive.targets.size()));

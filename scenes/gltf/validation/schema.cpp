@@ -45,7 +45,7 @@ const ObjectSchema& Sparse() {
 const ObjectSchema& Accessor() {
   static const ObjectSchema schema{
       .properties = {
-          Reference("bufferView", "bufferViews"), Size("byteOffset"),
+          Reference("bufferView", "bufferViews"), Size("byteOffset").Needs("bufferView"),
           Code("componentType", {5120, 5121, 5122, 5123, 5125, 5126}).Required(),
           Boolean("normalized"), Size("count").AtLeast(1).Required(),
           Word("type", {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}).Required(),

@@ -29,7 +29,11 @@ struct Property {
   std::vector<int64_t> codes = {};           ///< The allowed integers; empty: all.
   std::string_view collection = {};          ///< kReference: the root array that it points into.
   const ObjectSchema* object = nullptr;
+  std::string_view needs = {};  ///< Another member without which this one must not be.
 
+  Property Needs(std::string_view other) const {
+    return With([&](Property& p) { p.needs = other; });
+  }
   Property Required() const {
     return With([](Property& p) { p.is_required = true; });
   }

@@ -67,6 +67,9 @@ void SchemaCheck::Member(const json& object, const Property& property, const std
     return;
   }
   const std::string pointer = fmt::format("{}/{}", at, property.name);
+  if (!property.needs.empty() && !object.contains(property.needs)) {
+    faults_.Add(pointer, fmt::format("needs '{}', which is missing", property.needs));
+  }
   if (property.is_array) {
     Array(*found, property, pointer);
   } else {

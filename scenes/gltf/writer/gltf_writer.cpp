@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "core/io/file_name.h"
 #include "core/io/input_error.h"
@@ -13,6 +14,16 @@
 
 namespace fenestra {
 namespace {
+
+// Puts all that has been written below a node at the place that the world has in the file.
+void MoveToFile(const Eigen::Vector3d& p_FW, tinygltf::Model& model) {
+  if (p_FW.isZero(0.0) || model.nodes.empty()) return;
+  tinygltf::Node root;
+  root.name = "world";
+  root.translation = {p_FW.x(), p_FW.y(), p_FW.z()};
+  root.children = std::exchange(model.scenes[0].nodes, {static_cast<int>(model.nodes.size())});
+  model.nodes.push_back(std::move(root));
+}
 
 tinygltf::Model ToModel(const GltfScene& gltf) {
   tinygltf::Model model;
@@ -27,6 +38,7 @@ tinygltf::Model ToModel(const GltfScene& gltf) {
   gltf::WriteWindows(gltf.scene, model);
   gltf::WriteCameras(gltf.cameras, model);
   gltf::WriteLights(gltf, model);
+  MoveToFile(gltf.p_FW, model);
   if (model.buffers[0].data.empty()) model.buffers.clear();
   if (model.nodes.empty()) {  // tinygltf would write an empty scene as null.
     model.scenes.clear();

@@ -5,11 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "core/io/image_io.h"
 #include "core/io/input_error.h"
 #include "renderers/exr_io.h"
+#include "scenes/gltf/reader/gltf_reader.h"
+#include "scenes/gltf/writer/gltf_writer.h"
 #include "scenes/targets/flat_targets.h"
 #include "tests/support/temporary_folder.h"
 
@@ -121,6 +127,62 @@ TEST(SceneViews, FilesHoldPicturesRadianceAndTruth) {
   const auto truth = nlohmann::json::parse(ReadFile(view / "truth.json"));
   EXPECT_TRUE(truth["target_in_view"].get<bool>());
   EXPECT_NEAR(truth["target"]["centroid_m"][2].get<double>(), 2.0, 1e-12);
+}
+
+// A root node that carries everything to the coordinates of a map.
+std::filesystem::path CarriedAway(const std::filesystem::path& scene, const TemporaryFolder& folder,
+                                  const Eigen::Vector3d& p_FW, double turned_rad) {
+  auto document = nlohmann::json::parse(ReadFile(scene));
+  const size_t root = document["nodes"].size();
+  document["nodes"].push_back(
+      {{"translation", {p_FW.x(), p_FW.y(), p_FW.z()}},
+       {"rotation", {0.0, std::sin(0.5 * turned_rad), 0.0, std::cos(0.5 * turned_rad)}},
+       {"children", document["scenes"][0]["nodes"]}});
+  document["scenes"][0]["nodes"] = {root};
+  return folder.Write("far.gltf", document.dump());
+}
+
+TEST(SceneViews, CoordinatesOfAMapChangeNeitherPictureNorTruth) {
+  const TemporaryFolder folder;
+  const std::filesystem::path near = folder / "near.gltf";
+  WriteGltf(near, World({Before("left", 2.0)}));
+  WriteSceneViews(folder / "near", ReadGltf(near), Small());
+  const Eigen::Vector3d p_FW(500000.0, 0.0, -4649776.0);
+  const GltfScene far = ReadGltf(CarriedAway(near, folder, p_FW, 0.25 * std::numbers::pi));
+  WriteSceneViews(folder / "far", far, Small());
+  for (const char* picture : {"left/color.png", "left/infrared.png"}) {
+    const cv::Mat a = cv::imread(folder / "near" / picture, cv::IMREAD_UNCHANGED);
+    const cv::Mat b = cv::imread(folder / "far" / picture, cv::IMREAD_UNCHANGED);
+    EXPECT_LE(cv::norm(a, b, cv::NORM_INF), 1.0) << picture;
+  }
+  const auto truth = [&folder](const char* name) {
+    return nlohmann::json::parse(ReadFile(folder / name / "left/truth.json"));
+  };
+  for (int corner = 0; corner < 4; ++corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto of = [&](const char* name) {
+        return truth(name)["target"]["corners_m"][corner][axis].get<double>();
+      };
+      EXPECT_NEAR(of("near"), of("far"), 1e-8);
+    }
+  }
+  EXPECT_NEAR(truth("far")["world_origin_in_file_m"][2].get<double>(), p_FW.z(), 2.0);
+  EXPECT_EQ(truth("near")["world_origin_in_file_m"][2].get<double>(), 0.0);
+}
+
+// Before anything is rendered: this would take a day.
+TEST(SceneViews, WhatIsTooMuchIsRefusedWithWhatItWouldNeed) {
+  const TemporaryFolder folder;
+  GltfScene world = World(std::vector<SceneCamera>(1000, Before("left", 2.0)));
+  world.scene.lamps.resize(10'000);
+  try {
+    WriteSceneViews(folder.path(), world, Small());
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("1000 views of 6.14 megapixels in all under 10000 lamps"));
+    EXPECT_THAT(error.what(), HasSubstr("more than 120 s"));
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 // Names may come from a file that someone else wrote.

@@ -191,6 +191,24 @@ TEST_P(GltfRoundTrip, EveryFieldComesBackToTheBit) {
   EXPECT_EQ(back.sun->illuminance_lx, scene.sun->illuminance_lx);
 }
 
+// Surfaces come back to the bit; a pose as exactly as doubles are at that distance.
+TEST_P(GltfRoundTrip, ASceneThatWasMovedGoesBackToItsPlace) {
+  GltfScene scene;
+  scene.scene = MakePaperTarget({.width_m = 1.3});
+  scene.cameras = {{"left", OddPose(), CameraModel::Pinhole(640, 480, 525.0)}};
+  scene.p_FW = scene.scene.target->Centroid_W().array().round();
+  scene.p_FW += Eigen::Vector3d(2600000.0, 450.0, -1200000.0);
+  const GltfScene back = ThroughFile(scene, GetParam());
+  EXPECT_EQ(back.p_FW, scene.p_FW);
+  ASSERT_EQ(back.scene.meshes.size(), scene.scene.meshes.size());
+  for (size_t i = 0; i < back.scene.meshes.size(); ++i) {
+    EXPECT_EQ(back.scene.meshes[i].positions_W, scene.scene.meshes[i].positions_W);
+  }
+  const Pose X_WC = back.cameras.at(0).X_WC;
+  EXPECT_LT((X_WC.translation() - OddPose().translation()).norm(), 1e-8);
+  EXPECT_EQ(X_WC.rotation(), OddPose().rotation());
+}
+
 TEST_P(GltfRoundTrip, ASecondTripChangesNothing) {
   const TemporaryFolder folder;
   const auto once = folder / (std::string("once") + GetParam());

@@ -50,6 +50,14 @@ TEST(LongestEdgeBisection, LeavesNoLongEdgeAndNoCrackAndKeepsTheBody) {
   EXPECT_EQ(EnclosedVolume(meshes[0]) + EnclosedVolume(meshes[1]), 64.0 - 4.0 * 0.875 * 0.875);
 }
 
+// Where floats are 0.25 m apart, edges of 0.1 m cannot be had.
+TEST(LongestEdgeBisection, EndsWhereFloatsAreCoarse) {
+  SolidSurface surface = TwoSolids();
+  for (glm::vec3& p : surface.positions_W) p += glm::vec3(4e6f);
+  BisectLongEdges(surface, [](const glm::vec3&) { return 0.1; });
+  EXPECT_LT(surface.triangles.size(), 100000u);
+}
+
 TEST(LongestEdgeBisection, DoesNothingWhereNothingIsTooLong) {
   SolidSurface surface = TwoSolids();
   const size_t count = surface.triangles.size();

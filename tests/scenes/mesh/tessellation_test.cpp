@@ -8,8 +8,6 @@
 #include <map>
 #include <tuple>
 
-#include "core/io/input_error.h"
-
 namespace fenestra {
 namespace {
 
@@ -45,6 +43,12 @@ std::map<std::pair<Point, Point>, int> DirectedEdges(const Scene& scene) {
   return edges;
 }
 
+size_t TriangleCount(const Scene& scene) {
+  size_t count = 0;
+  for (const Mesh& mesh : scene.meshes) count += mesh.triangles.size();
+  return count;
+}
+
 double Area(const Scene& scene) {
   double area = 0.0;
   for (const Mesh& mesh : scene.meshes) {
@@ -58,7 +62,11 @@ double Area(const Scene& scene) {
 }
 
 TEST(Tessellation, LeavesNoCracksAndNoLongEdges) {
-  const Scene scene = Tessellated(Tetrahedron(), 0.21);
+  constexpr size_t kTriangles = 1000;
+  const Scene scene = Tessellated(Tetrahedron(), kTriangles);
+  // Longest-edge bisection keeps shapes: no edge is far longer than that of a half square of the
+  // mean area, whose square is four times the area.
+  const double longest_m = 2.0 * std::sqrt(4.0 * Area(scene) / kTriangles);
   const auto edges = DirectedEdges(scene);
   EXPECT_GT(edges.size(), 500u);
   for (const auto& [edge, count] : edges) {
@@ -68,7 +76,7 @@ TEST(Tessellation, LeavesNoCracksAndNoLongEdges) {
     const double length =
         std::hypot(std::get<0>(a) - std::get<0>(b), std::get<1>(a) - std::get<1>(b),
                    std::get<2>(a) - std::get<2>(b));
-    EXPECT_LE(length, 0.21 * (1.0 + 1e-6));
+    EXPECT_LE(length, longest_m);
   }
   EXPECT_NEAR(Area(scene), Area(Tetrahedron()), 1e-5);
 }
@@ -81,7 +89,7 @@ TEST(Tessellation, InterpolatesWhatVerticesCarry) {
     mesh.colors.emplace_back(0.1f * p.x, 0.2f * p.y, 0.1f);
     mesh.normals_W.push_back(glm::normalize(glm::vec3(1.0f, p.x, 0.0f)));
   }
-  const Scene fine = Tessellated(scene, 0.3);
+  const Scene fine = Tessellated(scene, 400);
   const Mesh& result = fine.meshes[0];
   ASSERT_EQ(result.texture_coordinates.size(), result.positions_W.size());
   for (size_t i = 0; i < result.positions_W.size(); ++i) {
@@ -98,21 +106,51 @@ TEST(Tessellation, InterpolatesWhatVerticesCarry) {
 TEST(Tessellation, LeavesSolidsAlone) {
   Scene scene = Tetrahedron();
   scene.meshes[0].closed = true;
-  const Scene fine = Tessellated(scene, 0.3);
+  const Scene fine = Tessellated(scene, 400);
   EXPECT_EQ(fine.meshes[0].triangles.size(), 2u);
   EXPECT_GT(fine.meshes[1].triangles.size(), 100u);
 }
 
-TEST(Tessellation, MakesAboutAsManyTrianglesAsAskedFor) {
-  for (const size_t triangles : {100u, 1000u, 20000u}) {
-    const Scene fine = Tessellated(Tetrahedron(), EdgeForTriangles(Tetrahedron(), triangles));
-    const size_t count = fine.meshes[0].triangles.size() + fine.meshes[1].triangles.size();
-    EXPECT_GT(count, triangles / 3);
-    EXPECT_LT(count, triangles * 3);
+TEST(Tessellation, MakesAsManyTrianglesAsAskedFor) {
+  for (const size_t triangles : {5u, 100u, 1000u, 20000u}) {
+    const size_t count = TriangleCount(Tessellated(Tetrahedron(), triangles));
+    EXPECT_GE(count, triangles);
+    EXPECT_LT(count, 2 * triangles);
   }
-  EXPECT_TRUE(std::isinf(EdgeForTriangles(Tetrahedron(), 4)));
-  EXPECT_THROW(Tessellated(Tetrahedron(), 0.0), InputError);
-  EXPECT_THROW(Tessellated(Tetrahedron(), std::numeric_limits<double>::quiet_NaN()), InputError);
+  EXPECT_EQ(TriangleCount(Tessellated(Tetrahedron(), 4)), 4u);
+  EXPECT_EQ(TriangleCount(Tessellated(Tetrahedron(), 0)), 4u);
+}
+
+// At 4e6 m floats are 0.25 m or 0.5 m apart: halving ends where neighbours are reached.
+TEST(Tessellation, EndsWhereFloatsAreCoarse) {
+  Scene far = Tetrahedron();
+  for (Mesh& mesh : far.meshes) {
+    for (glm::vec3& p : mesh.positions_W) p += glm::vec3(-4649776.0f, 0.0f, 3904000.0f);
+  }
+  const Scene fine = Tessellated(far, 20000);
+  EXPECT_GT(TriangleCount(fine), 4u);
+  EXPECT_LT(TriangleCount(fine), 2u * 20000u);
+}
+
+TEST(Tessellation, EndsForTrianglesOfAnyShape) {
+  const float largest = std::numeric_limits<float>::max();
+  const float smallest = std::numeric_limits<float>::denorm_min();
+  const std::vector<std::vector<glm::vec3>> shapes = {
+      {{0, 0, 0}, {1e6f, 0, 0}, {0, 1e-6f, 0}},              // A needle.
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},                     // A line,
+      {{1, 2, 3}, {1, 2, 3}, {1, 2, 3}},                     // a point,
+      {{-largest, 0, 0}, {largest, 0, 0}, {0, largest, 0}},  // the largest
+      {{0, 0, 0}, {smallest, 0, 0}, {0, smallest, 0}},       // and the smallest there is.
+      {{1, 0, 0}, {std::nextafter(1.0f, 2.0f), 0, 0}, {1, 1e-30f, 0}},  // Neighbours.
+  };
+  for (size_t i = 0; i < shapes.size(); ++i) {
+    Scene scene;
+    scene.materials = {{.name = "grey"}};
+    scene.meshes.push_back({.name = "one", .positions_W = shapes[i], .triangles = {{0, 1, 2}}});
+    const Scene fine = Tessellated(scene, 1000);
+    EXPECT_LE(TriangleCount(fine), 2000u) << "shape " << i;
+    Validate(fine);
+  }
 }
 
 }  // namespace

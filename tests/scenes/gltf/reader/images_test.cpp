@@ -66,8 +66,15 @@ TEST(GltfImages, DecompressionBombsAreRefusedByTheirHeader) {
   bomb[16] = 0x7F;  // Width, big-endian, behind signature, length and type.
   EXPECT_THAT(Refusal(TexturedTriangle(bomb)), HasSubstr("at most 16384 a side"));
   EXPECT_THAT(Refusal(TexturedTriangle(Png(20, 10, {0, 0, 0, 255})), {.max_image_pixels = 199}),
-              HasSubstr("/images/0: 20 x 10 more pixels"));
+              HasSubstr("/images/0: with its 20 x 10 pixels"));
   EXPECT_EQ(Refusal(TexturedTriangle(Png(20, 10, {0, 0, 0, 255})), {.max_image_pixels = 200}), "");
+}
+
+// A triangle and its picture share the memory that a scene may have.
+TEST(GltfImages, PixelsCountAsMemory) {
+  const json document = TexturedTriangle(Png(20, 10, {0, 0, 0, 255}));
+  EXPECT_EQ(Refusal(document, {.max_memory_bytes = 10'000}), "");
+  EXPECT_THAT(Refusal(document, {.max_memory_bytes = 5'000}), HasSubstr("more memory than"));
 }
 
 TEST(GltfImages, OnePictureInManyTexturesCountsManyTimes) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/input_error.h"
+#include "scenes/gltf/reader/cost.h"
 #include "tests/scenes/gltf/gltf_text.h"
 #include "tests/support/temporary_folder.h"
 
@@ -28,8 +29,9 @@ Placed Place(const json& document, size_t max_triangles = 1000,
   const TemporaryFolder folder;
   const Asset asset = LoadAsset(folder.Write("scene.gltf", document.dump()), {});
   Notes notes;
-  Placed placed{
-      PlaceMeshes(asset, PlaceNodes(asset, std::nullopt), materials, max_triangles, notes), {}};
+  const std::vector<PlacedNode> nodes = PlaceNodes(asset, std::nullopt);
+  CheckCost(asset, nodes, {.max_triangles = max_triangles});
+  Placed placed{PlaceMeshes(asset, nodes, materials, notes), {}};
   placed.notes = notes.Sentences();
   return placed;
 }
