@@ -30,6 +30,7 @@ void AddDepthCommand(Command program) {
     out.RequireWritable();
     out.RequireFree({"depth_curves.md", "depth_curves.png"});
     StructuredLightOptions options;
+    options.driver = DepthDriver::kOpenNi;  // The farther of the two, as in the recordings.
     const DepthCurves parametric = MeasureDepthCurves(options, RandomStream(*seed));
     options.depth_model = DepthModel::kMatched;
     const DepthCurves speckle = MeasureDepthCurves(options, RandomStream(*seed));

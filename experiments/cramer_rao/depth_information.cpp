@@ -85,10 +85,7 @@ DepthTheory::DepthTheory(const StructuredLightSensor& sensor)
       rays_(InfraredCamera(options_).Scaled(1.0 / kStride)),
       block_px_(BlockArea(options_)),
       response_(options_.infrared, rays_.camera(), {options_.projector_baseline_m, 0.0, 0.0}),
-      focal_times_baseline_(DisparityRange::Of(options_.depth_focal_px, options_.depth_width_px,
-                                               options_.projector_baseline_m,
-                                               options_.disparity_step_px, options_.near_mode)
-                                .focal_times_baseline) {}
+      range_(RangeOf(options_)) {}
 
 double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
   const InfraredOptions& infrared = options_.infrared;
@@ -104,9 +101,9 @@ double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
           : 0.0;
   const double temporal_px2 = noise.temporal_disparity_noise_px *
                               noise.temporal_disparity_noise_px * variance_dn2 / (dot_dn * dot_dn);
-  const double unit_px = focal_times_baseline_ / (z_m * z_m) * 1e-3;
+  const double unit_px = range_.focal_times_baseline / (z_m * z_m) * 1e-3;
   const double steps_px2 =
-      (options_.disparity_step_px * options_.disparity_step_px + unit_px * unit_px) / 12.0;
+      (range_.step_px * range_.step_px + unit_px * unit_px) / 12.0;
   return block_px_ * (fixed_px2 + (flicker_px2 + temporal_px2) / options_.averaged_frames) +
          steps_px2 / options_.averaged_frames;
 }
@@ -143,7 +140,7 @@ DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
         continue;
       }
       const Eigen::Matrix<double, kDepthUnknowns, 1> gradient =
-          focal_times_baseline_ *
+          range_.focal_times_baseline *
           DisparityGradient(
               {.r = r,
                .n = X_DC.rotation() * n_C,

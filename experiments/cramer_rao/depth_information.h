@@ -54,7 +54,7 @@ class DepthTheory {
   RayGrid rays_;              ///< The infra-red camera's, but coarser.
   double block_px_;           ///< N, in depth pixels.
   InfraredResponse response_;
-  double focal_times_baseline_;
+  DisparityRange range_;
 };
 
 }  // namespace fenestra

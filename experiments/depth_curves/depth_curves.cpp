@@ -107,9 +107,9 @@ std::vector<DepthCurves::Step> MeasureSteps(StructuredLightOptions options,
                                             const RandomStream& stream) {
   std::vector<DepthCurves::Step> steps;
   for (const double z_m : {1.0, 1.5, 2.0, 3.0, 3.7}) {
-    options.disparity_step_px = 1.0 / 8.0;
+    options.driver = DepthDriver::kOpenNi;
     const double open_ni_m = StepAt(options, z_m, stream);
-    options.disparity_step_px = 1.0 / 16.0;
+    options.driver = DepthDriver::kMicrosoft;
     steps.push_back({z_m, open_ni_m, StepAt(options, z_m, stream)});
   }
   return steps;
@@ -156,7 +156,7 @@ double HalfPoint(const std::vector<cv::Point2d>& x_and_share) {
 DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const RandomStream& stream) {
   DepthCurves curves;
   const WallSetup white(options, WallSetup::kWhite, {}, stream);
-  for (const double z_m : {0.9, 1.25, 1.5, 2.0, 2.5, 3.0, 3.5, 3.9}) {
+  for (const double z_m : {0.9, 1.25, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0}) {
     const Viewpoint viewpoint{.distance_m = z_m, .azimuth_rad = kTilt};
     const DepthImage depth = white.See(viewpoint);
     curves.by_distance.push_back({.z_m = z_m,
@@ -173,14 +173,14 @@ DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const Rand
   curves.lateral = MeasureLateral(options, stream);
   curves.steps = MeasureSteps(options, stream);
   for (const double z_m : {1.0, 2.0, 3.0}) {
-    for (const double lux : {60.0, 600.0, 3e3, 6e3, 7.2e3, 8.4e3, 9.6e3, 1.2e4, 3e4}) {
+    for (const double lux : {100.0, 1e3, 5e3, 1e4, 2e4, 3e4, 4e4, 6e4, 8e4, 1e5, 2e5}) {
       curves.by_ambient.push_back(
           {.wall_lx = lux, .z_m = z_m, .valid = ValidShare(white.See({.distance_m = z_m}, lux))});
     }
   }
   for (const double reflectance : {0.05, 0.10, 0.20, 0.40}) {
     const WallSetup painted(options, reflectance, {}, stream);
-    for (const double z_m : {0.9, 1.1, 1.3, 1.5, 1.7, 1.9, 2.3, 2.7, 3.1, 3.5}) {
+    for (const double z_m : {1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 6.0, 7.0, 8.0}) {
       curves.by_paint.push_back({.reflectance_830nm = reflectance,
                                  .z_m = z_m,
                                  .valid = ValidShare(painted.See({.distance_m = z_m}))});

@@ -41,9 +41,9 @@ struct Models {
 void DrawNoise(cv::Mat3b& canvas, const Models& models) {
   Plot plot(canvas, {.area = AreaOf(0, 0),
                      .title = "Noise and fixed pattern of a white wall",
-                     .x = {"distance [m]", 0.5, 4.2},
-                     .y = {"RMS around the plane [mm]", 0.0, 45.0}});
-  plot.Line(LawOver(0.8, 4.0, [](double z) { return 1e3 * KhoshelhamSigma(z); }),
+                     .x = {"distance [m]", 0.5, 7.5},
+                     .y = {"RMS around the plane [mm]", 0.0, 100.0}});
+  plot.Line(LawOver(0.8, 7.2, [](double z) { return 1e3 * KhoshelhamSigma(z); }),
             plot_color::kVermilion, "Khoshelham & Elberink 2012");
   models.Draw(plot, [](const DepthCurves& c) {
     Points points;
@@ -85,7 +85,7 @@ void DrawLateral(cv::Mat3b& canvas, const Models& models) {
 void DrawAmbient(cv::Mat3b& canvas, const Models& models) {
   Plot plot(canvas, {.area = AreaOf(0, 1),
                      .title = "Daylight on a white wall at 3 m",
-                     .x = {"on the wall [lx]", 50.0, 4e4, true},
+                     .x = {"on the wall [lx]", 80.0, 3e5, true},
                      .y = {"valid pixels [%]", 0.0, 130.0}});
   plot.VerticalMark(PredictedAmbientLimit({}, 0.8, 3.0), "predicted");
   models.Draw(plot, [](const DepthCurves& c) {
@@ -100,7 +100,7 @@ void DrawAmbient(cv::Mat3b& canvas, const Models& models) {
 void DrawPaint(cv::Mat3b& canvas, const Models& models) {
   Plot plot(canvas, {.area = AreaOf(1, 1),
                      .title = "Black paint, reflectance 0.05 at 830 nm",
-                     .x = {"distance [m]", 0.5, 3.6},
+                     .x = {"distance [m]", 1.0, 8.5},
                      .y = {"valid pixels [%]", 0.0, 130.0}});
   plot.VerticalMark(PredictedReach({}, 0.05), "predicted");
   models.Draw(plot, [](const DepthCurves& c) {

@@ -7,8 +7,10 @@ namespace {
 #define FIELD(path) FENESTRA_FIELD(path)
 
 void AddRgbdDepth(FactorTable& t) {
-  t.Switch("rgbd_near_mode", FIELD(rgbd.near_mode),
-           "Whether the range is 0.4–3 m instead of 0.8–4 m.")
+  t.Choice("rgbd_driver", FIELD(rgbd.driver), {"microsoft", "openni"},
+           "Driver of the depth camera: 0.8–4 m in steps of 1/16 px, or 0.5–9 m in steps of 1/8 px.")
+      .Switch("rgbd_near_mode", FIELD(rgbd.near_mode),
+              "Whether the range of Microsoft's driver is 0.4–3 m instead of 0.8–4 m.")
       .Integer("rgbd_depth_width_px", FIELD(rgbd.depth_width_px), {64, 4096},
                "Width of the depth image.")
       .Integer("rgbd_depth_height_px", FIELD(rgbd.depth_height_px), {64, 4096},
@@ -17,8 +19,8 @@ void AddRgbdDepth(FactorTable& t) {
               "Focal length of the depth camera.")
       .Number("rgbd_projector_baseline_m", FIELD(rgbd.projector_baseline_m), {0.001, 1.0},
               "Distance from the depth camera to the projector.")
-      .Number("rgbd_disparity_step_px", FIELD(rgbd.disparity_step_px), {0.0, 10.0},
-              "Quantisation step of the disparity.")
+      .Switch("rgbd_quantised_disparity", FIELD(rgbd.quantised),
+              "Whether disparities come in the driver's steps.")
       .Number("rgbd_fixed_disparity_noise_px", FIELD(rgbd.parametric.fixed_disparity_noise_px),
               {0.0, 10.0},
               "Standard deviation of the disparity noise that all depth images of a view share; "

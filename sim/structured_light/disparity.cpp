@@ -16,10 +16,14 @@ float VertexOfLogarithms(float before, float score, float after) {
 
 }  // namespace
 
-DisparityRange DisparityRange::Of(double focal_px, int width_px, double baseline_m, double step_px,
-                                  bool near_mode) {
-  return {.focal_times_baseline = focal_px * baseline_m * kImageWidth / width_px,
-          .step_px = step_px,
+DisparityRange DisparityRange::Of(double focal_px, int width_px, double baseline_m,
+                                  DepthDriver driver, bool near_mode) {
+  const double fb = focal_px * baseline_m * kImageWidth / width_px;
+  if (driver == DepthDriver::kOpenNi) {
+    return {.focal_times_baseline = fb, .step_px = 0.125, .nearest_m = 0.5, .farthest_m = 9.0};
+  }
+  return {.focal_times_baseline = fb,
+          .step_px = 0.0625,
           .nearest_m = near_mode ? 0.4 : 0.8,
           .farthest_m = near_mode ? 3.0 : 4.0};
 }

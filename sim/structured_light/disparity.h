@@ -6,6 +6,14 @@
 
 namespace fenestra {
 
+/// The program that turns disparities into depths.
+enum class DepthDriver {
+  kMicrosoft,  ///< Kinect SDK 1.8: 0.8–4.0 m, in near mode 0.4–3.0 m; 1/16 px, by the levels of its
+               ///< depth table.
+  kOpenNi,  ///< Steps of 1/8 px (ROS kinect_calibration/technical); 0.5 to 9 m, as recordings
+            ///< have them (PCL, TUM RGB-D).
+};
+
 /// Conversion of disparity to depth, z = f b/d, for disparities in pixels of the 640-wide image in
 /// which the sensor matches, with the steps and the range that the sensor delivers.
 struct DisparityRange {
@@ -17,9 +25,8 @@ struct DisparityRange {
   double nearest_m;
   double farthest_m;
 
-  /// Ranges of the Microsoft Kinect SDK 1.8: 0.8–4.0 m, in near mode 0.4–3.0 m. focal_px: of a
-  /// depth camera of this width.
-  static DisparityRange Of(double focal_px, int width_px, double baseline_m, double step_px,
+  /// What a driver delivers. focal_px: of a depth camera of this width; near_mode: Microsoft's.
+  static DisparityRange Of(double focal_px, int width_px, double baseline_m, DepthDriver driver,
                            bool near_mode);
 
   bool Contains(double z_m) const { return z_m >= nearest_m && z_m <= farthest_m; }

@@ -26,9 +26,9 @@ struct InfraredOptions {
   /// Kinect infrared and depth images", 2015: 5.90e8/r²).
   double dot_signal_dn = 590.0;
   /// Fitted to where a recorded concrete floor is lost (TUM RGB-D, freiburg2) if that reflects 0.4;
-  /// only the quotient of the two is known: 1.5 to 2.5 DN for 0.3 to 0.5. Landau's 10.4 DN is the
+  /// only the quotient of the two is known: 0.86 to 1.44 DN for 0.3 to 0.5. Landau's 10.4 DN is the
   /// residual on dots, speckle included.
-  double dark_noise_dn = 2.0;
+  double dark_noise_dn = 1.15;
   /// Variance per DN of signal: 10 bits of 31,600 electrons, those of 45 dB (MT9M001).
   double shot_noise_dn = 0.032;
   double saturation_dn = 1023.0;  ///< 10 bits.

@@ -19,7 +19,7 @@ namespace fenestra {
 struct ParametricDepthOptions {
   /// Standard deviation of the disparity before quantisation by the laser's speckle that stays the
   /// same in every image of a view, in a whole block. That of its flicker is in proportion.
-  double fixed_disparity_noise_px = 0.05;
+  double fixed_disparity_noise_px = 0.052;
   /// That by the images' noise, in blocks whose dots exceed it by its own standard deviation.
   double temporal_disparity_noise_px = 0.28;
 };

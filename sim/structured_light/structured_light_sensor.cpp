@@ -31,11 +31,6 @@ RgbdCalibration CalibrationOf(const StructuredLightOptions& o) {
   return {.color = color, .depth = color.Scaled(scale), .X_KD = Pose()};
 }
 
-DisparityRange RangeOf(const StructuredLightOptions& o) {
-  return DisparityRange::Of(o.depth_focal_px, o.depth_width_px, o.projector_baseline_m,
-                            o.disparity_step_px, o.near_mode);
-}
-
 // The largest disparity that is searched [px of the infra-red image].
 double MatchingSearchEnd(const StructuredLightOptions& o) {
   return o.matching.SearchEnd(RangeOf(o)) * o.infrared_width_px / DisparityRange::kImageWidth;
@@ -59,10 +54,18 @@ MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
 
 }  // namespace
 
+DisparityRange RangeOf(const StructuredLightOptions& o) {
+  DisparityRange range = DisparityRange::Of(o.depth_focal_px, o.depth_width_px,
+                                            o.projector_baseline_m, o.driver, o.near_mode);
+  if (!o.quantised) range.step_px = 0.0;
+  return range;
+}
+
 void Validate(const StructuredLightOptions& o) {
   Faults faults("structured-light sensor");
   faults.Require(o.projector_baseline_m > 0.0, "the projector's baseline must be positive");
-  faults.Require(o.disparity_step_px >= 0.0, "the disparity step must not be negative");
+  faults.Require(!o.near_mode || o.driver == DepthDriver::kMicrosoft,
+                 "only Microsoft's driver has a near mode");
   faults.Require(o.averaged_frames >= 1 && o.averaged_frames <= 1000,
                  fmt::format("{} averaged frames are not between 1 and 1000", o.averaged_frames));
   faults.Require(

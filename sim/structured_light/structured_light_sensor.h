@@ -41,7 +41,9 @@ struct StructuredLightOptions {
   /// The exposure is taken to be short.
   double infrared_readout_s = 30.5e-3;
 
-  bool near_mode = false;  ///< 0.4–3.0 m instead of 0.8–4.0 m (MS SDK).
+  DepthDriver driver = DepthDriver::kMicrosoft;
+  bool near_mode = false;  ///< 0.4–3.0 m instead of 0.8–4.0 m; Microsoft's driver only.
+  bool quantised = true;   ///< Whether disparities come in the driver's steps.
 
   DepthModel depth_model = DepthModel::kParametric;
   InfraredOptions infrared;
@@ -50,10 +52,6 @@ struct StructuredLightOptions {
   /// Width of the infra-red image in which kMatched matches: a multiple of the depth image's. Depth
   /// pixels are those of every so many columns and rows.
   int infrared_width_px = 640;
-  /// Quantum of the disparity, in pixels of a 640-wide image: 1/8 px (ROS
-  /// kinect_calibration/technical) in OpenNI's drivers; 1/16 px, by the levels of its depth table,
-  /// in the Microsoft SDK's. 0: none.
-  double disparity_step_px = 0.125;
   /// Depth images at 30 Hz that are averaged, the last of them in time with the colour image, each
   /// with its own noise: the mean of the returns of pixels with a return in at least half of them.
   int averaged_frames = 1;
@@ -67,6 +65,9 @@ struct StructuredLightOptions {
 
 /// Throws InputError with all faults.
 void Validate(const StructuredLightOptions& options);
+
+/// The disparities that a sensor delivers.
+DisparityRange RangeOf(const StructuredLightOptions& options);
 
 /// A structured-light sensor. Frame B is the infra-red camera, whose pixels the depth image has
 /// unless it is registered.

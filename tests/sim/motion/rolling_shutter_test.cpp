@@ -139,7 +139,7 @@ TEST(RollingShutterTest, DotsOfAMovingRigAreFoundAllTheSame) {
 
 TEST(RollingShutterTest, AveragedFramesOfAMovingRigLagBehind) {
   StructuredLightOptions options;
-  options.disparity_step_px = 0.0;
+  options.quantised = false;
   options.averaged_frames = 3;
   const auto mean_mm = [&](double speed_m_s) {
     options.motion.velocity_B.z() = speed_m_s;

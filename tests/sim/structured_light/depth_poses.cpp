@@ -6,7 +6,7 @@
 
 namespace fenestra::testing {
 
-int64_t DepthPixelsWhereNothingIs(DepthModel model, int poses, uint64_t seed) {
+DepthOfNothing DepthWhereNothingIs(DepthModel model, int poses, uint64_t seed) {
   StructuredLightOptions options;
   options.depth_model = model;
   options.infrared_width_px = 160;
@@ -18,7 +18,7 @@ int64_t DepthPixelsWhereNothingIs(DepthModel model, int poses, uint64_t seed) {
   const RayGrid rays(sensor.nominal().depth);
   Lighting lighting;
   lighting.sky.illuminance_lx = 300.0;
-  int64_t wrong = 0;
+  DepthOfNothing seen;
   for (int i = 0; i < poses; ++i) {
     const RandomStream stream = RandomStream(seed).Child("pose", static_cast<uint64_t>(i));
     const auto uniform = [&](uint64_t k, double low, double high) {
@@ -32,22 +32,22 @@ int64_t DepthPixelsWhereNothingIs(DepthModel model, int poses, uint64_t seed) {
         p_WB);
     const ExplainedDepth frame = sensor.ObserveDepth(caster, lighting, X_WB, stream);
     const cv::Mat1f truth_m = caster.CastAovs(rays, X_WB, lighting, {}).depth_m;
+    // Blocks of 9 x 9 pixels of the 640 that the sensor matches in are this many of these.
+    constexpr int kReach = 3;
     for (int v = 0; v < frame.depth.raw.rows; ++v) {
       for (int u = 0; u < frame.depth.raw.cols; ++u) {
         const bool is_return = frame.depth.raw(v, u) != 0;
-        if (is_return != (frame.no_return(v, u) == 0)) ++wrong;
-        // The parametric model jitters its rays: only a neighbourhood without surface counts.
-        bool is_surface = false;
-        for (int y = std::max(v - 1, 0); y <= std::min(v + 1, truth_m.rows - 1); ++y) {
-          for (int x = std::max(u - 1, 0); x <= std::min(u + 1, truth_m.cols - 1); ++x) {
-            is_surface |= std::isfinite(truth_m(y, x));
-          }
-        }
-        if (is_return && !is_surface) ++wrong;
+        if (is_return != (frame.no_return(v, u) == 0)) ++seen.unexplained;
+        const cv::Rect block = cv::Rect(u - kReach, v - kReach, 2 * kReach + 1, 2 * kReach + 1) &
+                               cv::Rect({0, 0}, truth_m.size());
+        // NaN differs from itself.
+        if (cv::countNonZero(truth_m(block) == truth_m(block)) > 0) continue;
+        ++seen.pixels;
+        if (is_return) ++seen.returns;
       }
     }
   }
-  return wrong;
+  return seen;
 }
 
 }  // namespace fenestra::testing

@@ -88,22 +88,25 @@ TEST(MatchedDepthTest, AWallIsWhereItStands) {
   }
 }
 
-TEST(MatchedDepthTest, ResidualsOfAWallFollowThePublishedCurve) {
-  // Khoshelham & Elberink 2012: 1.425e-3 z² m, noise, fixed pattern and quantisation together.
-  // Nothing here was fitted to it.
-  for (const double z_m : {1.0, 2.0, 3.0}) {
+TEST(MatchedDepthTest, NoiseOfAWallGrowsWithTheSquareOfTheDistance) {
+  // σ = (1.3–1.75)e-3 z² m, noise, fixed pattern and quantisation in 1/8 px together, of walls in
+  // some 2,500 recorded frames of eight devices from 0.7 to 7.5 m. Nothing here was fitted to it.
+  StructuredLightOptions options = Speckle();
+  options.driver = DepthDriver::kOpenNi;
+  for (const double z_m : {1.0, 2.0, 3.0, 5.0, 7.0}) {
     const ExplainedDepth frame =
-        SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m, .azimuth_rad = 0.03});
-    const double residual = PlaneResidual(frame);
-    EXPECT_NEAR(residual / (1.425e-3 * z_m * z_m), 1.0, 0.35) << z_m;
-    RecordProperty("residual_mm_at_" + std::to_string(z_m), std::to_string(1e3 * residual));
+        SeenByMatching(options, PlainWall(), {.distance_m = z_m, .azimuth_rad = 0.03});
+    const double over_z2 = PlaneResidual(frame) / (z_m * z_m);
+    EXPECT_GT(over_z2, 1.2e-3) << z_m;
+    EXPECT_LT(over_z2, 1.9e-3) << z_m;
   }
 }
 
 TEST(MatchedDepthTest, DepthsComeInStepsOfTheDisparity) {
-  for (const double step_px : {0.125, 0.0625}) {  // OpenNI and Microsoft SDK.
+  for (const auto& [driver, step_px] :
+       {std::pair{DepthDriver::kOpenNi, 0.125}, {DepthDriver::kMicrosoft, 0.0625}}) {
     StructuredLightOptions options = Speckle();
-    options.disparity_step_px = step_px;
+    options.driver = driver;
     const ExplainedDepth frame =
         SeenByMatching(options, PlainWall(), {.distance_m = 2.0, .azimuth_rad = 0.4});
     std::set<int> steps;
@@ -120,27 +123,37 @@ TEST(MatchedDepthTest, DepthsComeInStepsOfTheDisparity) {
   }
 }
 
-TEST(MatchedDepthTest, NoiseDiffersFromFrameToFrameAndThePatternStays) {
+// 0.2 to 0.5 of a step of 1/8 px, from 0.5 to 4.5 m, in recordings of static scenes; more farther
+// away. The share of the speckle that flickers was chosen by it.
+TEST(MatchedDepthTest, DepthChangesLittleFromImageToImage) {
   StructuredLightOptions options = Speckle();
-  options.disparity_step_px = 0.0;
+  options.driver = DepthDriver::kOpenNi;
   const StructuredLightSensor sensor(options);
   const RayCaster caster(PlainWall());
-  const Pose X_WB = RigPose({.distance_m = 1.5}, Pose());
-  const auto residual = [&](int frames) {
-    StructuredLightOptions averaging = options;
-    averaging.averaged_frames = frames;
-    return PlaneResidual(
-        StructuredLightSensor(averaging).ObserveDepth(caster, Dark(), X_WB, RandomStream(3)));
-  };
-  // Temporal noise is a quarter of the fixed pattern's at this distance: averaging eight frames
-  // takes little away.
-  const double one = residual(1);
-  const double eight = residual(8);
-  EXPECT_LT(eight, one);
-  EXPECT_GT(eight, 0.85 * one);
-  // Without laser speckle, what is left is the parabola's error and the depth image's millimetre.
-  options.infrared.speckle_contrast = 0.0;
-  EXPECT_LT(residual(8), 0.8 * residual(1));
+  for (const double z_m : {1.0, 2.0, 4.0}) {
+    const Pose X_WB = RigPose({.distance_m = z_m, .azimuth_rad = 0.2}, Pose());
+    // The same view, twice: the fixed speckle is that of the shot.
+    StructuredLightOptions both = options;
+    both.averaged_frames = 2;
+    const cv::Mat1w one = sensor.ObserveDepth(caster, Dark(), X_WB, RandomStream(3)).depth.raw;
+    const cv::Mat1w mean =
+        StructuredLightSensor(both).ObserveDepth(caster, Dark(), X_WB, RandomStream(3)).depth.raw;
+    double sum_m2 = 0.0;
+    int count = 0;
+    for (int v = 60; v < 180; ++v) {
+      for (int u = 80; u < 240; ++u) {
+        if (one(v, u) == 0 || mean(v, u) == 0) continue;
+        const double difference_m = 2e-3 * (one(v, u) - mean(v, u));
+        if (std::abs(difference_m) > 0.05 * z_m) continue;  // A wrong match in one of them.
+        sum_m2 += difference_m * difference_m;
+        ++count;
+      }
+    }
+    const double step_m = 2.92e-3 * z_m * z_m;
+    const double temporal_steps = std::sqrt(sum_m2 / count / 2.0) / step_m;
+    EXPECT_GT(temporal_steps, 0.15) << z_m;
+    EXPECT_LT(temporal_steps, 0.55) << z_m;
+  }
 }
 
 // A plate at zo_m before a wall at zb_m: how many pixels of a row have no return [px at 640], left
@@ -181,22 +194,19 @@ double ShadowWidth(double zo_m, double zb_m) {
   return 2.0 * 285.63 * 0.075 * (1.0 / zo_m - 1.0 / zb_m);
 }
 
-TEST(MatchedDepthTest, AShadowIsLeftOfTheForegroundAndAsWideAsGeometrySays) {
-  // From 4 to 33 px. In one picture the width has a standard deviation of 0.3 px, since blocks of
-  // 9 rows share their dots: 0.12 px in the mean of six.
-  for (const auto& [zo_m, zb_m] :
-       {std::pair{1.7, 2.0}, {1.5, 2.0}, {1.2, 2.0}, {2.0, 3.0}, {1.5, 3.0}, {0.9, 3.0}}) {
+// Recorded: 3 to 4 px of 640 narrower than geometry, since blocks that hold a part of the
+// foreground match it. The threshold was chosen by it; that narrow shadows are the more filled is a
+// prediction.
+TEST(MatchedDepthTest, AShadowIsLeftOfTheForegroundAndNarrowerThanGeometrySays) {
+  // In one picture the width has a standard deviation of 0.3 px, since blocks of 9 rows share their
+  // dots: 0.12 px in the mean of six.
+  for (const auto& [zo_m, zb_m] : {std::pair{1.5, 2.0}, {1.2, 2.0}, {1.5, 3.0}, {0.9, 3.0}}) {
     const Holes holes = HolesAroundAPlate(Speckle(), zo_m, zb_m);
-    EXPECT_NEAR(holes.left_px, ShadowWidth(zo_m, zb_m), 0.5) << zo_m << " before " << zb_m;
-    // Where blocks hold as much of the wall as of the plate, neither leads.
-    EXPECT_LT(holes.right_px, 4.5);
+    EXPECT_NEAR(ShadowWidth(zo_m, zb_m) - holes.left_px, 3.5, 1.5) << zo_m << " before " << zb_m;
+    // Recorded: none.
+    EXPECT_LT(holes.right_px, 3.0) << zo_m << " before " << zb_m;
   }
-}
-
-TEST(MatchedDepthTest, WithoutAskingForDotsAllAroundHolesAreTooNarrow) {
-  StructuredLightOptions options = Speckle();
-  options.matching.most_off_centre = 0.5;
-  EXPECT_LT(HolesAroundAPlate(options, 1.5, 3.0).left_px, ShadowWidth(1.5, 3.0) - 1.0);
+  EXPECT_LT(HolesAroundAPlate(Speckle(), 1.7, 2.0).left_px, ShadowWidth(1.7, 2.0) - 1.0);
 }
 
 TEST(MatchedDepthTest, BlackPaintIsLostWithDistanceUnlessItIsBrightInTheInfraRed) {
@@ -207,9 +217,11 @@ TEST(MatchedDepthTest, BlackPaintIsLostWithDistanceUnlessItIsBrightInTheInfraRed
     }
     return ValidShare(SeenByMatching(Speckle(), scene, {.distance_m = z_m}));
   };
-  EXPECT_GT(share(0.05, 0.9), 0.9);
-  EXPECT_LT(share(0.05, 1.7), 0.1);
-  EXPECT_GT(share(0.40, 2.5), 0.9);
+  // Half is lost between: a prediction, for paint whose reflectance at 830 nm is known has not been
+  // recorded.
+  EXPECT_GT(share(0.05, 2.2), 0.9);
+  EXPECT_LT(share(0.02, 3.5), 0.2);
+  EXPECT_GT(share(0.40, 3.9), 0.98);
 }
 
 TEST(MatchedDepthTest, ABlackFrameDropsOutUnlessItIsBrightInTheInfraRed) {
@@ -228,9 +240,9 @@ TEST(MatchedDepthTest, ABlackFrameDropsOutUnlessItIsBrightInTheInfraRed) {
     return cv::countNonZero(is_frame & (frame.depth.raw != 0)) /
            static_cast<double>(cv::countNonZero(is_frame));
   };
-  EXPECT_GT(share(0.05, 1.0), 0.8);
-  EXPECT_LT(share(0.05, 1.8), 0.1);
-  EXPECT_GT(share(0.40, 1.8), 0.95);
+  EXPECT_GT(share(0.05, 1.8), 0.9);
+  EXPECT_LT(share(0.01, 1.8), 0.5);
+  EXPECT_GT(share(0.40, 1.8), 0.98);
 }
 
 TEST(MatchedDepthTest, GlassLetsThePatternThroughToTheRoom) {
@@ -249,24 +261,28 @@ TEST(MatchedDepthTest, GlassLetsThePatternThroughToTheRoom) {
   EXPECT_GT(middle_mm(true), 2500.0);
 }
 
-TEST(MatchedDepthTest, AmbientLightDrownsTheDots) {
-  const auto share = [](double lux) {
+// By shot noise in an exposure that gets shorter: far walls are lost in less light than near ones.
+TEST(MatchedDepthTest, AmbientLightDrownsTheDotsOfFarWallsFirst) {
+  const auto share = [](double lux, double z_m) {
     Lighting lighting;
     lighting.sky.illuminance_lx = lux;
-    return ValidShare(SeenByMatching(Speckle(), PlainWall(), {.distance_m = 2.0}, lighting));
+    return ValidShare(SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m}, lighting));
   };
-  EXPECT_GT(share(100.0), 0.95);
-  EXPECT_LT(share(50000.0), 0.05);
+  EXPECT_GT(share(100.0, 3.5), 0.95);
+  // Half of the sky's light reaches a wall.
+  EXPECT_GT(share(100e3, 1.0), 0.9);
+  EXPECT_LT(share(100e3, 3.5), 0.1);
 }
 
 TEST(MatchedDepthTest, NothingIsSeenOutsideTheRange) {
-  for (const double z_m : {0.3, 0.7, 4.3, 8.0}) {
+  for (const double z_m : {0.7, 4.3, 8.0}) {
     const ExplainedDepth frame = SeenByMatching(Speckle(), PlainWall(), {.distance_m = z_m});
     for (const uint16_t raw : frame.depth.raw) {
       if (raw == 0) continue;
       EXPECT_GE(raw, 800);
       EXPECT_LE(raw, 4000);
     }
+    // Blocks of noise match by chance.
     EXPECT_LT(ValidShare(frame), 0.02) << z_m;
   }
   StructuredLightOptions near = Speckle();
@@ -285,7 +301,7 @@ TEST(MatchedDepthTest, TheParametricModelIsLikeIt) {
     const ExplainedDepth parametric = SeenByMatching({}, scene, viewpoint);
     EXPECT_NEAR(ValidShare(parametric), ValidShare(speckle), 0.05)
         << reflectance_830nm << " at " << z_m;
-    if (ValidShare(speckle) < 0.95) return;
+    if (ValidShare(speckle) < 0.99) return;  // Wrong matches are far off.
     EXPECT_NEAR(PlaneResidual(parametric) / PlaneResidual(speckle), 1.0, 0.2)
         << reflectance_830nm << " at " << z_m;
   };
@@ -294,9 +310,14 @@ TEST(MatchedDepthTest, TheParametricModelIsLikeIt) {
   for (const double z_m : {0.9, 1.4, 2.0, 3.0}) compare(0.05, z_m);
 }
 
-TEST(MatchedDepthTest, NoPoseGivesDepthWhereNothingIs) {
-  EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kMatched, 1000, 5), 0);
-  EXPECT_EQ(testing::DepthPixelsWhereNothingIs(DepthModel::kParametric, 1000, 6), 0);
+TEST(MatchedDepthTest, DepthIsWhereSomethingIsWhateverThePose) {
+  for (const DepthModel model : {DepthModel::kMatched, DepthModel::kParametric}) {
+    const testing::DepthOfNothing seen = testing::DepthWhereNothingIs(model, 1000, 5);
+    EXPECT_EQ(seen.unexplained, 0);
+    EXPECT_GT(seen.pixels, 100'000);
+    // Blocks without any dots match by chance: 129 Φ(-4.05), of blocks that share their pixels.
+    EXPECT_LT(static_cast<double>(seen.returns), 0.006 * static_cast<double>(seen.pixels));
+  }
 }
 
 }  // namespace

@@ -27,7 +27,6 @@ inline StructuredLightOptions Noiseless() {
   StructuredLightOptions options;
   options.parametric.fixed_disparity_noise_px = 0.0;
   options.parametric.temporal_disparity_noise_px = 0.0;
-  options.parametric.lateral_noise_px = 0.0;
   return options;
 }
 
