@@ -1,5 +1,3 @@
-#include "scenes/gltf/validation/accessor_check.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
