@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace fenestra {
 
@@ -14,5 +16,16 @@ std::ifstream OpenInput(const std::filesystem::path& file);
 /// All bytes of a file. Throws InputError as OpenInput does, and if there are more than
 /// `most_bytes`.
 std::string ReadWholeFile(const std::filesystem::path& file, uintmax_t most_bytes);
+
+/// The offset of the first byte that is not part of a UTF-8 character (RFC 3629: neither overlong
+/// forms nor surrogates nor anything above U+10FFFF); nullopt if the whole text is UTF-8.
+std::optional<size_t> FirstNotUtf8(std::string_view text);
+
+/// The extension with its dot in lower case: ".png" of "VIEW.PNG".
+std::string LowerExtension(const std::filesystem::path& file);
+
+/// Whether the name begins with a dot. Such files are a system's own, not what a user means by the
+/// files of a folder: beside each picture on a foreign disk, macOS leaves a "._picture.png".
+bool IsHidden(const std::filesystem::path& file);
 
 }  // namespace fenestra

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "core/io/input_file.h"
-#include "core/io/utf8.h"
 
 namespace fenestra {
 namespace {

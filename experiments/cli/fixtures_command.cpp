@@ -4,8 +4,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/io/file_name.h"
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/cli/progress.h"

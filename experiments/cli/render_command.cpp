@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "core/geometry/pose.h"
-#include "core/io/file_name.h"
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "experiments/cli/commands.h"
 #include "experiments/cli/detector_arguments.h"
 #include "experiments/sequence/sequence_writer.h"

@@ -11,8 +11,8 @@
 #include <optional>
 
 #include "core/io/faults.h"
-#include "core/io/file_name.h"
 #include "core/io/image_io.h"
+#include "core/io/input_file.h"
 #include "vision/calibration/board_finder.h"
 #include "vision/stereo/rectification.h"
 

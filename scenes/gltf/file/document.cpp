@@ -8,8 +8,8 @@
 #include <span>
 #include <string_view>
 
-#include "core/io/file_name.h"
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 
 namespace fenestra::gltf {
 namespace {

@@ -6,8 +6,8 @@
 #include <sstream>
 #include <utility>
 
-#include "core/io/file_name.h"
 #include "core/io/input_error.h"
+#include "core/io/input_file.h"
 #include "core/io/temporary_files.h"
 #include "scenes/gltf/writer/material_writer.h"
 #include "scenes/gltf/writer/node_writer.h"

@@ -126,7 +126,7 @@ TEST_F(OutputPathTest, TheRecordIsReadBySha256sum) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST(OutputPathTest, WhatCannotBeWrittenIsForeseenAndNothingIsMade) {
+TEST(ForeseenPathTest, WhatCannotBeWrittenIsForeseenAndNothingIsMade) {
   const TemporaryFolder folder;
   folder.Write("file", "text");
   OutputPath("new.xml").RequireWritable();

@@ -30,7 +30,7 @@ constexpr const char* kOtherStudy =
 
 // In the folder, with the program and the number of kills. What each of the others says goes into a
 // file of its own, with a line "exit code N" behind every call.
-constexpr const char* kScript = R"(
+constexpr const char* kScript = R"sh(
 cd "$1"; fenestra=$2; kills=$3
 run=("$fenestra" run kills.yaml --no-pictures --jobs 2 --out out)
 kill_after() {
@@ -54,7 +54,7 @@ RANDOM=7
 for ((i = 0; i < kills; ++i)); do kill_after sleep "$(printf '0.%03d' $((RANDOM % 1000)))"; done
 touch stop; wait
 "${run[@]}" > last 2>&1
-)";
+)sh";
 
 // All that a row holds but its times.
 std::string RowsWithoutTimes(const std::filesystem::path& out) {

@@ -71,7 +71,7 @@ TEST(MergeTest, LostRepeatedAndUnfinishedShardsAreNamed) {
               AllOf(HasSubstr("shard2/results.sqlite: is shard 2/4, as is"),
                     HasSubstr("missing: shard 3/4")));
   EXPECT_THAT(refusal({shards[0], shards[1], shards[2], folder / "shard9"}),
-              HasSubstr("shard9: there is no such file"));
+              HasSubstr("shard9: no such file"));
   EXPECT_THAT(refusal({}), HasSubstr("no shards"));
   ExecuteSql(shards[2], "DELETE FROM trials WHERE cell = 1");
   EXPECT_THAT(refusal(shards),
