@@ -1,9 +1,11 @@
 #pragma once
 
 #include "core/geometry/camera_model.h"
+#include "core/random/random_stream.h"
 #include "sim/structured_light/disparity.h"
+#include "sim/structured_light/dot_pattern.h"
 #include "sim/structured_light/explained_depth.h"
-#include "sim/structured_light/infrared_image.h"
+#include "sim/structured_light/infrared_response.h"
 #include "sim/structured_light/infrared_view.h"
 #include "sim/structured_light/pattern_matching.h"
 
