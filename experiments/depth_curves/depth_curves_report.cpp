@@ -140,7 +140,8 @@ std::string AmbientTables(const StructuredLightOptions& options, const DepthCurv
     const double predicted = PredictedAmbientLimit(options, WallSetup::kWhite, z_m);
     const double measured = HalfPoint(speckle[i].x_and_share);
     halves.AddRow({Number(z_m), Number(predicted), Number(HalfPoint(parametric[i].x_and_share)),
-                   Number(measured), fmt::format("{:.2f}", measured / predicted)});
+                   Number(measured),
+                   std::isnan(measured) ? "—" : fmt::format("{:.2f}", measured / predicted)});
   }
   return fmt::format("Half of the pixels are lost at:\n\n{}\nPixels with a return:\n\n{}",
                      halves.ToMarkdown(),

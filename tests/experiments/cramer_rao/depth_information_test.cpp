@@ -126,7 +126,7 @@ TEST(DepthInformationTest, FallsWithDistanceAndWithWhatReturns) {
 }
 
 TEST(RgbdInformationTest, WhatIsKnownTightensTheBound) {
-  const WallBefore black(2.0, 0.05);
+  const WallBefore black(2.0, 0.005);
   const RgbdObservation seen = black.Observe(1);
   const Eigen::MatrixXd information = black.Information(seen);
   const auto variance_z = [&](const PriorKnowledge& knowledge) {
