@@ -19,6 +19,10 @@ TextTable TableWith(const std::vector<std::string>& headings) {
   return table;
 }
 
+std::string Ratio(double x) {
+  return std::isnan(x) ? "—" : fmt::format("{:.2f}", x);
+}
+
 std::string Number(double x) {
   return std::isnan(x) ? "—" : fmt::format("{:.3g}", x);
 }
@@ -39,7 +43,7 @@ std::string ByDistance(const DepthCurves& p, const DepthCurves& s) {
     const auto& b = s.by_distance[i];
     const double published_m = KhoshelhamSigma(b.z_m);
     table.AddRow({Number(b.z_m), Millimetres(published_m), Millimetres(a.residual_m),
-                  Millimetres(b.residual_m), fmt::format("{:.2f}", b.residual_m / published_m),
+                  Millimetres(b.residual_m), Ratio(b.residual_m / published_m),
                   Millimetres(a.temporal_m), Millimetres(b.temporal_m), InPercent(a.valid),
                   InPercent(b.valid)});
   }
@@ -140,8 +144,7 @@ std::string AmbientTables(const StructuredLightOptions& options, const DepthCurv
     const double predicted = PredictedAmbientLimit(options, WallSetup::kWhite, z_m);
     const double measured = HalfPoint(speckle[i].x_and_share);
     halves.AddRow({Number(z_m), Number(predicted), Number(HalfPoint(parametric[i].x_and_share)),
-                   Number(measured),
-                   std::isnan(measured) ? "—" : fmt::format("{:.2f}", measured / predicted)});
+                   Number(measured), Ratio(measured / predicted)});
   }
   return fmt::format("Half of the pixels are lost at:\n\n{}\nPixels with a return:\n\n{}",
                      halves.ToMarkdown(),
