@@ -57,7 +57,8 @@ std::string ReadWholeFile(const fs::path& file, uintmax_t most_bytes) {
   }
   errno = 0;
   std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad() || bytes.size() != size) ThrowSystemFault(file, "cannot be read", errno);
+  if (stream.bad()) ThrowSystemFault(file, "cannot be read", errno);
+  if (bytes.size() != size) throw InputError(file, "changed while it was read");
   return bytes;
 }
 

@@ -10,11 +10,12 @@
 namespace fenestra {
 
 /// Opens a file for reading, as bytes. Throws InputError if there is no such file, if it is not a
-/// regular one (a pipe or a device may never end) or if the system refuses, with its reason.
+/// regular one (a pipe or a device may never end) or if it may not be read, SystemError if the
+/// machine fails; both with the system's reason.
 std::ifstream OpenInput(const std::filesystem::path& file);
 
-/// All bytes of a file. Throws InputError as OpenInput does, and if there are more than
-/// `most_bytes`.
+/// All bytes of a file. Throws as OpenInput does, and InputError if there are more than
+/// `most_bytes` or if the file changes meanwhile.
 std::string ReadWholeFile(const std::filesystem::path& file, uintmax_t most_bytes);
 
 /// The offset of the first byte that is not part of a UTF-8 character (RFC 3629: neither overlong

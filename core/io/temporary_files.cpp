@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view kPrefix = "fenestra-";
+constexpr std::string_view kPrefix = "fenestra-private-";
 constexpr std::string_view kPattern = "XXXXXX";  // What mkdtemp replaces.
 
 // Room for the pictures of many jobs. Where memory is short, a disk serves as well.
@@ -133,7 +133,8 @@ PrivateFolder::PrivateFolder() {
     }
     path_ = pattern;
     descriptor_ = OpenFolder(path_);
-    if (descriptor_ >= 0) flock(descriptor_, LOCK_EX);
+    while (descriptor_ >= 0 && flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
+    }
   } while (descriptor_ < 0 ? errno == ENOENT : !IsSame(descriptor_, path_));
   if (descriptor_ < 0) throw SystemError(path_, strerror(errno));
 }

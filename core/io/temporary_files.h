@@ -24,8 +24,8 @@ void WriteFileAtomically(const OutputPath& file, const std::function<void(std::o
 /// A new folder that only this user can enter, removed with its contents at the end of the scope.
 /// It is in memory (/dev/shm) if there is room, otherwise among the temporary files. Its process
 /// holds a lock on it, so that folders that killed processes have left behind, and no others, are
-/// removed when the next one is made: a process number would mean nothing where containers or hosts
-/// share the place. Throws SystemError if no folder can be made.
+/// removed when the next one is made: a process number would mean nothing where containers share the
+/// place. Throws SystemError if no folder can be made.
 class PrivateFolder {
  public:
   PrivateFolder();

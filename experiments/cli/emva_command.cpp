@@ -86,7 +86,6 @@ void Emva(const EmvaArguments& arguments) {
     const emva::Series series = emva::ReadDescriptor(descriptor);
     return WriteResults(folder, emva::Evaluate(series, emva::FilesBeside(descriptor, series)), {});
   }
-  folder.RequireWritable();
   folder.RequireFree({descriptor.filename().string()});
   const TrialSettings settings = SettingsOf(arguments);
   const ImageSensorOptions& sensor = settings.stereo.sensor;

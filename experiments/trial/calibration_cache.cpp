@@ -53,6 +53,8 @@ std::optional<CalibrationWithCovariance> Read(const std::filesystem::path& file)
     return CalibrationWithCovariance{ReadStereoCalibration(file), CovarianceIn(text)};
   } catch (const InputError&) {
     return std::nullopt;
+  } catch (const SystemError&) {
+    return std::nullopt;
   }
 }
 

@@ -43,8 +43,8 @@ struct InfraredOptions {
   double corner_illumination = 0.7;
   /// The laser's speckle multiplies the dots in each pixel with a gamma variate of mean 1 and of
   /// this standard deviation, which belongs to the surface and the pose, and with another that is
-  /// drawn for each image. Together 0.47, as Landau fitted to images (shape 4.54). The division is
-  /// chosen so that depth changes by 0.2 to 0.5 of a step of 1/8 px from image to image, as
+  /// drawn for each image. Together 0.48; Landau fitted 0.47 to images (shape 4.54). The division
+  /// is chosen so that depth changes by 0.2 to 0.5 of a step of 1/8 px from image to image, as
   /// recorded.
   double speckle_contrast = 0.42;
   double speckle_flicker = 0.21;

@@ -18,7 +18,8 @@ namespace fenestra {
 /// white walls.
 struct ParametricDepthOptions {
   /// Standard deviation of the disparity before quantisation by the laser's speckle that stays the
-  /// same in every image of a view, in a whole block. That of its flicker is in proportion.
+  /// same in every image of a view, in a whole block, at the contrast that is InfraredOptions'
+  /// default; it does not follow another contrast. That of the flicker is in proportion.
   double fixed_disparity_noise_px = 0.052;
   /// That by the images' noise, in blocks whose dots exceed it by its own standard deviation.
   double temporal_disparity_noise_px = 0.28;

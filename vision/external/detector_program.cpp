@@ -49,7 +49,7 @@ void DetectorProgram::RequireThere(const ObservationFiles& files) const {
   for (const auto* file :
        {&files.left, &files.right, &files.color, &files.depth, &files.calibration}) {
     if (!file->empty() && !std::filesystem::exists(*file)) {
-      throw SystemError(*file, "was removed by another program");
+      throw SystemError(*file, "was removed while a detector was to read it");
     }
   }
 }

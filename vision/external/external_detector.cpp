@@ -27,22 +27,25 @@ std::unique_ptr<DetectorProgram> ProgramPool::Take() {
 
 TimedDetection ProgramPool::Ask(const Observation& observation,
                                 const SensorCalibration& calibration) {
+  const auto started = [](const auto& start) {
+    try {
+      return start();
+    } catch (const InputError& error) {
+      throw DetectorFailure("start", error.what());
+    }
+  };
   try {
-    return AskOnce(observation, calibration);
+    return AskOnce(started([this] { return Take(); }), observation, calibration);
   } catch (const SystemError&) {
-    // The next program has a folder of its own, perhaps where there is more room.
-    return AskOnce(observation, calibration);
+    // What took this program's folder may have taken those of the idle ones, too.
+    return AskOnce(started([this] { return std::make_unique<DetectorProgram>(command_); }),
+                   observation, calibration);
   }
 }
 
-TimedDetection ProgramPool::AskOnce(const Observation& observation,
+TimedDetection ProgramPool::AskOnce(std::unique_ptr<DetectorProgram> program,
+                                    const Observation& observation,
                                     const SensorCalibration& calibration) {
-  std::unique_ptr<DetectorProgram> program;
-  try {
-    program = Take();
-  } catch (const InputError& error) {
-    throw DetectorFailure("start", error.what());
-  }
   const auto keep = [&] {
     if (!program->running()) return;
     const std::lock_guard lock(mutex_);

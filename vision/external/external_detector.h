@@ -25,7 +25,8 @@ class ProgramPool {
   TimedDetection Ask(const Observation& observation, const SensorCalibration& calibration);
 
  private:
-  TimedDetection AskOnce(const Observation& observation, const SensorCalibration& calibration);
+  TimedDetection AskOnce(std::unique_ptr<DetectorProgram> program, const Observation& observation,
+                         const SensorCalibration& calibration);
   std::unique_ptr<DetectorProgram> Take();
 
   ExternalCommand command_;
