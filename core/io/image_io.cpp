@@ -17,23 +17,30 @@ namespace {
 
 constexpr int kLargestSide = 16384;
 constexpr const char* kNotAnImage = "not a readable image (PNG, TIFF, JPEG, PGM)";
-constexpr std::array<unsigned char, 8> kPngSignature = {0x89, 'P',  'N',  'G',
-                                                        '\r', '\n', 0x1a, '\n'};
+constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
-uint32_t BigEndian(const unsigned char* bytes) {
-  return (uint32_t{bytes[0]} << 24) | (uint32_t{bytes[1]} << 16) | (uint32_t{bytes[2]} << 8) |
-         uint32_t{bytes[3]};
+uint32_t BigEndian(const char* bytes) {
+  uint32_t number = 0;
+  for (int i = 0; i < 4; ++i) number = (number << 8) | static_cast<unsigned char>(bytes[i]);
+  return number;
+}
+
+// The first bytes of a file: its format and, of a PNG, its size.
+std::string StartOf(const std::filesystem::path& file) {
+  constexpr size_t kBytes = 24;
+  std::string start(kBytes, '\0');
+  std::ifstream stream = OpenInput(file);
+  stream.read(start.data(), kBytes);
+  start.resize(static_cast<size_t>(stream.gcount()));
+  return start;
 }
 
 // A PNG header states its size before anything is decompressed: a small file may claim to be a
 // huge image.
-void RefuseHugePng(const std::filesystem::path& file) {
-  std::array<unsigned char, 24> header{};
-  std::ifstream stream = OpenInput(file);
-  stream.read(reinterpret_cast<char*>(header.data()), header.size());
-  if (!stream || !std::equal(kPngSignature.begin(), kPngSignature.end(), header.begin())) return;
-  const uint32_t width = BigEndian(&header[16]);
-  const uint32_t height = BigEndian(&header[20]);
+void RefuseHugePng(const std::filesystem::path& file, const std::string& start) {
+  if (start.size() < 24 || !start.starts_with(kPngSignature)) return;
+  const uint32_t width = BigEndian(&start[16]);
+  const uint32_t height = BigEndian(&start[20]);
   if (width > kLargestSide || height > kLargestSide) {
     throw InputError(file, fmt::format("{} x {} pixels; at most {} a side are read", width, height,
                                        kLargestSide));
@@ -42,12 +49,8 @@ void RefuseHugePng(const std::filesystem::path& file) {
 
 // OpenCV reads some twenty formats, some of them through libraries that were never meant for files
 // from outside; only these are let through to it.
-bool IsKnownFormat(const std::filesystem::path& file) {
-  std::array<char, 8> bytes{};
-  std::ifstream stream = OpenInput(file);
-  stream.read(bytes.data(), bytes.size());
-  const std::string_view start(bytes.data(), static_cast<size_t>(stream.gcount()));
-  constexpr std::array<std::string_view, 8> kStarts = {"\x89PNG\r\n\x1a\n",
+bool IsKnownFormat(const std::string& start) {
+  constexpr std::array<std::string_view, 8> kStarts = {kPngSignature,
                                                        "\xff\xd8\xff",
                                                        std::string_view("II*\0", 4),
                                                        std::string_view("MM\0*", 4),
@@ -60,8 +63,9 @@ bool IsKnownFormat(const std::filesystem::path& file) {
 }
 
 cv::Mat Read(const std::filesystem::path& file) {
-  RefuseHugePng(file);
-  if (!IsKnownFormat(file)) throw InputError(file, kNotAnImage);
+  const std::string start = StartOf(file);
+  RefuseHugePng(file, start);
+  if (!IsKnownFormat(start)) throw InputError(file, kNotAnImage);
   cv::Mat image;
   try {
     image = cv::imread(file.string(), cv::IMREAD_UNCHANGED);
@@ -111,8 +115,9 @@ cv::Mat1w ReadDepthImage(const std::filesystem::path& file) {
 
 void WritePng(const OutputPath& file, const cv::Mat& image) {
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes))
+  if (!cv::imencode(".png", image, bytes)) {
     throw InputError(file.path(), "cannot be encoded as PNG");
+  }
   WriteFileAtomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 

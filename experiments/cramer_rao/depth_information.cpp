@@ -95,15 +95,11 @@ double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
   const double variance_dn2 =
       response_.NoiseVariance(response_.pattern_mean() * dot_dn + ambient_dn);
   const double fixed_px2 = noise.fixed_disparity_noise_px * noise.fixed_disparity_noise_px;
-  const double flicker_px2 =
-      infrared.speckle_contrast > 0.0
-          ? fixed_px2 * std::pow(infrared.speckle_flicker / infrared.speckle_contrast, 2)
-          : 0.0;
+  const double flicker_px2 = fixed_px2 * std::pow(response_.FlickerOverFixed(), 2);
   const double temporal_px2 = noise.temporal_disparity_noise_px *
                               noise.temporal_disparity_noise_px * variance_dn2 / (dot_dn * dot_dn);
   const double unit_px = range_.focal_times_baseline / (z_m * z_m) * 1e-3;
-  const double steps_px2 =
-      (range_.step_px * range_.step_px + unit_px * unit_px) / 12.0;
+  const double steps_px2 = (range_.step_px * range_.step_px + unit_px * unit_px) / 12.0;
   return block_px_ * (fixed_px2 + (flicker_px2 + temporal_px2) / options_.averaged_frames) +
          steps_px2 / options_.averaged_frames;
 }

@@ -161,18 +161,22 @@ ResultStore ResultStore::Create(const fs::path& file, const StoreMetadata& metad
   if (file.has_parent_path()) fs::create_directories(file.parent_path(), error);
   if (error) ThrowSystemFault(file, "its folder cannot be made", error.value());
   const fs::path temporary = TemporaryBeside(file);
+  const auto remove_temporary = [&] {
+    fs::remove(temporary, error);
+    fs::remove(JournalOf(temporary), error);
+  };
   try {
     NamingFile(temporary, [&] { WriteEmptyStore(temporary, metadata); });
     // The journal of a run that was killed and whose store was then deleted by hand: SQLite would
     // take it for the new file's and play it back.
     fs::remove(JournalOf(file));
     fs::rename(temporary, file);
-  } catch (const std::exception& exception) {
-    fs::remove(temporary, error);
-    fs::remove(JournalOf(temporary), error);
-    const std::string message = fmt::format("cannot be made: {}", exception.what());
-    if (dynamic_cast<const SystemError*>(&exception) != nullptr) throw SystemError(file, message);
-    throw InputError(file, message);
+  } catch (const SystemError& failure) {
+    remove_temporary();
+    throw SystemError(file, fmt::format("cannot be made: {}", failure.what()));
+  } catch (const std::exception& fault) {
+    remove_temporary();
+    throw InputError(file, fmt::format("cannot be made: {}", fault.what()));
   }
   return Connection::Open(file, SQLite::OPEN_READWRITE);
 }

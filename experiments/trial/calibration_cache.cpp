@@ -4,12 +4,11 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <stdexcept>
 
 #include "core/geometry/calibration.h"
-#include "core/io/input_error.h"
 #include "core/io/input_file.h"
 #include "core/io/sha256.h"
-#include "core/io/system_error.h"
 #include "core/io/temporary_files.h"
 #include "core/system/check.h"
 #include "core/system/program.h"
@@ -51,9 +50,7 @@ std::optional<CalibrationWithCovariance> Read(const std::filesystem::path& file)
     const size_t end = text.find(kSum);
     if (end == std::string::npos || text != Sealed(text.substr(0, end))) return std::nullopt;
     return CalibrationWithCovariance{ReadStereoCalibration(file), CovarianceIn(text)};
-  } catch (const InputError&) {
-    return std::nullopt;
-  } catch (const SystemError&) {
+  } catch (const std::runtime_error&) {
     return std::nullopt;
   }
 }
@@ -85,10 +82,8 @@ CalibrationWithCovariance CalibrationCache::Get(
   CalibrationWithCovariance computed = compute();
   try {
     WriteFileAtomically(file, Sealed(ToText(computed)));
-  } catch (const InputError&) {
+  } catch (const std::runtime_error&) {
     // Computed again next time.
-  } catch (const SystemError&) {
-    // So here.
   }
   return computed;
 }

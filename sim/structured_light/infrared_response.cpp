@@ -65,21 +65,21 @@ InfraredLight InfraredResponse::LightAt(const AovImages& aovs, cv::Point place,
                               kReferenceReflectance;
   const auto T = static_cast<double>(aovs.transmittance(place));
   const double tangent2 = ray.head<2>().squaredNorm();
-  const double cosine = 1.0 / std::sqrt(1.0 + tangent2);
+  const double cosine2 = 1.0 / (1.0 + tangent2);
   // The pattern passes a pane of glass twice; the irradiance is on the surface, behind the pane.
-  InfraredLight light{
-      .dot_dn = 0.0,
-      .ambient_dn = reflected_dn * T * static_cast<double>(aovs.irradiance_830(place)) *
-                    options_.filter_width_nm / DotIrradiance() * std::pow(cosine, 4),
-      .cos_projector = 0.0};
+  InfraredLight light{.dot_dn = 0.0,
+                      .ambient_dn = reflected_dn * T *
+                                    static_cast<double>(aovs.irradiance_830(place)) *
+                                    options_.filter_width_nm / DotIrradiance() * cosine2 * cosine2,
+                      .cos_projector = 0.0};
   if (aovs.sees_point(place) != 0) {
     const Eigen::Vector3d to_projector = (p_CP_ - z_m * ray).normalized();
     const cv::Vec3f& n = aovs.normal_C(place);
     light.cos_projector = std::max(0.0, Eigen::Vector3d(n[0], n[1], n[2]).dot(to_projector));
     const double envelope =
         std::max(0.0, 1.0 - (1.0 - options_.corner_illumination) * tangent2 / kCornerTangent2);
-    light.dot_dn =
-        reflected_dn * T * T * light.cos_projector * std::pow(cosine, 3) * envelope / (z_m * z_m);
+    light.dot_dn = reflected_dn * T * T * light.cos_projector * cosine2 * std::sqrt(cosine2) *
+                   envelope / (z_m * z_m);
   }
   return light;
 }
@@ -116,6 +116,11 @@ double InfraredResponse::SpeckleVariance() const {
   const double fixed = options_.speckle_contrast * options_.speckle_contrast;
   const double flicker = options_.speckle_flicker * options_.speckle_flicker;
   return fixed + flicker + fixed * flicker;
+}
+
+double InfraredResponse::FlickerOverFixed() const {
+  return options_.speckle_contrast > 0.0 ? options_.speckle_flicker / options_.speckle_contrast
+                                         : 0.0;
 }
 
 double InfraredResponse::Correlation(const InfraredLight& light) const {

@@ -101,6 +101,8 @@ class InfraredResponse {
   double Correlation(const InfraredLight& light) const;
   /// c² of both kinds of speckle together.
   double SpeckleVariance() const;
+  /// Contrast of the flicker over that of the fixed speckle; 0 where nothing is fixed.
+  double FlickerOverFixed() const;
   /// E_dot [W/m²].
   double DotIrradiance() const;
   /// m and v, means over displacements by fractions of a pixel.

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "core/io/input_error.h"
-#include "sim/structured_light/explained_depth.h"
 
 namespace fenestra {
 namespace {
@@ -120,14 +119,6 @@ MatchedDepth::MatchedDepth(const InfraredOptions& infrared, const PatternMatchin
       pattern_(infrared.dot_sigma_px),
       matcher_(matching, pattern_, rays_.size(), 0.0,
                matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth) {}
-
-cv::Mat1w MatchedDepth::ObserveInfrared(const RayCaster& caster, const Lighting& lighting,
-                                        const Pose& X_WB, const RandomStream& shot,
-                                        const RandomStream& image_noise) const {
-  const InfraredView view = rays_.Cast(caster, X_WB, lighting, response_.p_CP());
-  return InfraredImage(response_, pattern_, rays_, view, response_.Exposure(view.aovs),
-                       shot.Child("laser_speckle"), image_noise.Child("infrared_noise"));
-}
 
 ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& lighting,
                                      const Pose& X_WB, double unit_m, const RandomStream& shot,

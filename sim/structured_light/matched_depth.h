@@ -26,10 +26,6 @@ class MatchedDepth {
                          double unit_m, const RandomStream& shot,
                          const RandomStream& image_noise) const;
 
-  /// The infra-red image alone, 10 bits.
-  cv::Mat1w ObserveInfrared(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                            const RandomStream& shot, const RandomStream& image_noise) const;
-
  private:
   PatternMatchingOptions matching_;
   DisparityRange range_;

@@ -73,10 +73,7 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
       response_(infrared, depth, {baseline_m, 0.0, 0.0}),
       pattern_mean_(static_cast<float>(response_.pattern_mean())),
       speckle_variance_(static_cast<float>(response_.SpeckleVariance())),
-      flicker_over_fixed_(
-          infrared.speckle_contrast > 0.0
-              ? static_cast<float>(infrared.speckle_flicker / infrared.speckle_contrast)
-              : 0.0f),
+      flicker_over_fixed_(static_cast<float>(response_.FlickerOverFixed())),
       search_px_(matching.SearchEnd(range)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
       blocks_(matching.block_width_px / scale_, matching.block_height_px / scale_,

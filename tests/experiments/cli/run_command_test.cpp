@@ -171,25 +171,18 @@ TEST_F(RunCommandTest, AnotherStudyIsRefusedUntilItShallReplaceTheResult) {
   EXPECT_NE(ReadFile(folder_ / "out/results.sqlite"), before);
 }
 
-/// The exit code and the words of a line of shell.
-ProgramOutput Shell(const std::string& line, const fs::path& said) {
-  const int status = std::system(("(" + line + ") > " + said.string() + " 2>&1").c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, ReadFile(said)};
-}
-
 TEST_F(RunCommandTest, AFullDiskEndsTheRunAndWhatIsStoredStays) {
   // A file system of its own that holds the empty store and few rows more.
   const std::string out = (folder_ / "out").string();
   fs::create_directory(out);
   const std::string mount = "unshare -m sh -c 'mount -t tmpfs -o size=160k none " + out + " && ";
-  if (Shell(mount + "true'", folder_ / "said.txt").exit_code != 0) {
+  if (Shell(mount + "true'").exit_code != 0) {
     GTEST_SKIP() << "needs the right to mount a file system";
   }
   WriteStudy(1, 100);
   const ProgramOutput outcome =
       Shell(mount + FENESTRA_PROGRAM " " + Command("out") + "; code=$?; cp " + out +
-                "/results.sqlite " + (folder_ / "kept").string() + "; ls " + out + "; exit $code'",
-            folder_ / "said.txt");
+            "/results.sqlite " + (folder_ / "kept").string() + "; ls " + out + "; exit $code'");
   EXPECT_EQ(outcome.exit_code, 3) << outcome.text;
   EXPECT_THAT(outcome.text,
               AllOf(HasSubstr("results.sqlite: "), HasSubstr("full"), Not(HasSubstr("terminate"))));
@@ -212,11 +205,11 @@ TEST_F(RunCommandTest, AFolderThatCannotBeWrittenIsRefused) {
   const std::string out = (folder_ / "out").string();
   const std::string mount = fmt::format(
       "unshare -m sh -c 'mount --bind {0} {0} && mount -o remount,ro,bind {0} && ", out);
-  if (Shell(mount + "true'", folder_ / "said.txt").exit_code != 0) {
+  if (Shell(mount + "true'").exit_code != 0) {
     GTEST_SKIP() << "needs the right to mount a file system";
   }
   const auto run = [&](const std::string& more) {
-    return Shell(mount + FENESTRA_PROGRAM " " + Command("out") + more + "'", folder_ / "said.txt");
+    return Shell(mount + FENESTRA_PROGRAM " " + Command("out") + more + "'");
   };
   // A complete result needs no writing.
   EXPECT_EQ(run("").exit_code, 0);
@@ -225,8 +218,7 @@ TEST_F(RunCommandTest, AFolderThatCannotBeWrittenIsRefused) {
   EXPECT_THAT(restart.text,
               AllOf(HasSubstr("cannot be written: Read-only"), Not(HasSubstr("terminate"))));
   EXPECT_EQ(ReadFile(folder_ / "out/results.sqlite"), before);
-  const ProgramOutput fresh =
-      Shell(mount + FENESTRA_PROGRAM " " + Command("out/new") + "'", folder_ / "said.txt");
+  const ProgramOutput fresh = Shell(mount + FENESTRA_PROGRAM " " + Command("out/new") + "'");
   EXPECT_EQ(fresh.exit_code, 2) << fresh.text;
   EXPECT_THAT(fresh.text, HasSubstr("cannot be made"));
 }
@@ -273,13 +265,11 @@ TEST_F(RunCommandTest, TheExampleReadsAResultWithPythonAlone) {
   WriteStudy(1, 2);
   ASSERT_EQ(Fenestra(Command("out")).exit_code, 0);
   const std::string example = FENESTRA_SOURCE_DIR "/examples/analysis.py ";
-  const ProgramOutput outcome =
-      Shell("python3 " + example + (folder_ / "out").string(), folder_ / "said.txt");
+  const ProgramOutput outcome = Shell("python3 " + example + (folder_ / "out").string());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.text;
   EXPECT_THAT(outcome.text, AllOf(HasSubstr("small, seed 1"), HasSubstr("distance_m 6"),
                                   HasSubstr("paper-stereo")));
-  EXPECT_NE(
-      Shell("python3 " + example + (folder_ / "none").string(), folder_ / "said.txt").exit_code, 0);
+  EXPECT_NE(Shell("python3 " + example + (folder_ / "none").string()).exit_code, 0);
 }
 
 }  // namespace

@@ -26,15 +26,9 @@ std::vector<WritingCommand> AllCommands() {
   return commands;
 }
 
-/// Runs lines of a shell script with the program's standard output where they say.
+/// Lines of a shell script, which say themselves where the program's output goes.
 ProgramOutput Script(const TemporaryFolder& folder, const std::string& lines) {
-  const fs::path script = folder.Write("script.sh", lines);
-  FILE* pipe = popen(("bash " + script.string() + " 2>&1 </dev/null").c_str(), "r");
-  std::string text;
-  char buffer[4096];
-  while (const size_t count = fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text};
+  return Shell("bash " + folder.Write("script.sh", lines).string());
 }
 
 class UnwritableOutputTest : public testing::WritingCommandsTest {
