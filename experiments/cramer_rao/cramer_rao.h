@@ -5,7 +5,6 @@
 
 #include "core/geometry/pose.h"
 #include "sim/truth/ground_truth.h"
-#include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {
 
@@ -41,8 +40,9 @@ FramePoint PointOn(const FrameState& frame, FrameEdge edge, const Eigen::Vector2
 struct PriorKnowledge {
   /// Standard deviation of width and height around what is expected [m]; nullopt: not expected.
   std::optional<double> size_sigma_m = {};
-  /// Stereo: covariance of the nominal calibration's error; nullopt: it is the truth.
-  std::optional<PairMatrix> calibration = {};
+  /// Covariance of the nominal calibration's error: PairMatrix for stereo, UnitCovariance for
+  /// RGB-D; nullopt: it is the truth.
+  std::optional<Eigen::MatrixXd> calibration = {};
   /// RGB-D: standard deviation of how far the wall's face stands before the front of the frame,
   /// around what is expected [m]; nullopt: known.
   std::optional<double> wall_sigma_m = {};

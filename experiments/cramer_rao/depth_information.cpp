@@ -12,10 +12,6 @@ namespace {
 
 constexpr int kStride = 4;
 
-CameraModel InfraredCamera(const StructuredLightOptions& o) {
-  return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
-}
-
 // Pixels that share a block's noise.
 double BlockArea(const StructuredLightOptions& o) {
   const double scale = DisparityRange::kImageWidth / o.depth_width_px;
@@ -24,8 +20,8 @@ double BlockArea(const StructuredLightOptions& o) {
   return (2.0 * blocks.reach_u() + 1.0) * (2.0 * blocks.reach_v() + 1.0);
 }
 
-// The derivative of a disparity by the unknowns. All in the infra-red camera: r the ray, n the
-// plane's normal, p a point of it, R_DC the turn from C; height_m: of the plane over the frame's.
+// A plane where a ray of the infra-red camera D meets it, all in D: r the ray, n the plane's
+// normal, p a point of it. C: the scored camera; height_m: of the plane over the frame.
 struct PlaneRay {
   Eigen::Vector3d r;
   Eigen::Vector3d n;
@@ -34,21 +30,68 @@ struct PlaneRay {
   double height_m;
 };
 
-Eigen::Matrix<double, kDepthUnknowns, 1> DisparityGradient(const PlaneRay& at, bool is_wall) {
+using DepthVector = Eigen::Matrix<double, kDepthUnknowns, 1>;
+
+// d/(f b) = n·r/(n·p) by n, by p and by r.
+struct PlaneDerivatives {
+  Eigen::Vector3d by_n;
+  Eigen::Vector3d by_p;
+  Eigen::Vector3d by_r;
+};
+PlaneDerivatives DerivativesAt(const PlaneRay& at) {
   const double distance = at.n.dot(at.p);
   const double toward = at.n.dot(at.r);
-  // d/(f b) = n·r/(n·p) by n and by p.
-  const Eigen::Vector3d by_p = -toward / (distance * distance) * at.n;
-  const Eigen::Vector3d by_n = at.r / distance - toward / (distance * distance) * at.p;
-  Eigen::Matrix<double, kDepthUnknowns, 1> gradient;
-  gradient.setZero();
-  gradient.head<3>() = at.R_DC.transpose() * by_p;
+  return {.by_n = at.r / distance - toward / (distance * distance) * at.p,
+          .by_p = -toward / (distance * distance) * at.n,
+          .by_r = at.n / distance};
+}
+
+// The derivative of d/(f b) by frame and wall.
+DepthVector ByFrame(const PlaneRay& at, const PlaneDerivatives& d, bool is_wall) {
+  DepthVector gradient = DepthVector::Zero();
+  gradient.head<3>() = at.R_DC.transpose() * d.by_p;
   // A turn δ in C moves n by δ x n, and p with it by height_m of that.
-  const Eigen::Vector3d by_moved_normal = by_n + at.height_m * by_p;
+  const Eigen::Vector3d by_moved_normal = d.by_n + at.height_m * d.by_p;
   gradient.segment<3>(3) = at.R_DC.transpose() * at.n.cross(by_moved_normal);
-  if (is_wall) gradient[kWallUnknown] = at.n.dot(by_p);
+  if (is_wall) gradient[kWallUnknown] = at.n.dot(d.by_p);
   return gradient;
 }
+
+// The derivative of d/(f b) by the pose X_CD, R_CD = exp(δ) R and a shift of p_CD: what stands at q
+// in C is at R_CDᵀ (q - p_CD) in D.
+Eigen::Matrix<double, 6, 1> ByPose(const PlaneRay& at, const PlaneDerivatives& d) {
+  const Eigen::Matrix3d R_CD = at.R_DC.transpose();
+  Eigen::Matrix<double, 6, 1> gradient;
+  // δ moves p in D by R_DC ((q - p_CD) x δ), and n alike.
+  gradient.head<3>() = R_CD * d.by_p.cross(at.p) + R_CD * d.by_n.cross(at.n);
+  gradient.tail<3>() = -R_CD * d.by_p;
+  return gradient;
+}
+
+// The derivative of d/(f b) by fx, fy, cx and cy of the infra-red camera.
+Eigen::Vector4d ByCamera(const PlaneRay& at, const PlaneDerivatives& d, const CameraParameters& k) {
+  return {-at.r.x() / k.fx_px * d.by_r.x(), -at.r.y() / k.fy_px * d.by_r.y(), -d.by_r.x() / k.fx_px,
+          -d.by_r.y() / k.fy_px};
+}
+
+// The derivative of a disparity by all unknowns.
+struct DisparityGradient {
+  const CameraModel& infrared;
+  double focal_times_baseline;
+  bool is_registered;
+
+  DepthVector At(const PlaneRay& at, bool is_wall) const {
+    const PlaneDerivatives d = DerivativesAt(at);
+    DepthVector gradient = ByFrame(at, d, is_wall);
+    const CameraParameters& k = infrared.parameters();
+    if (is_registered) gradient.segment<6>(kUnitUnknown + kUnitPose) = ByPose(at, d);
+    gradient.segment<4>(kUnitUnknown + kUnitDepthCamera) = ByCamera(at, d, k);
+    gradient[kUnitUnknown + kUnitScale] = d.by_r.dot(at.r);
+    gradient *= focal_times_baseline;
+    gradient[kUnitUnknown + kUnitOffset] = 1.0;
+    return gradient;
+  }
+};
 
 bool Returns(const DepthImage& observed, const CameraModel& camera, const Eigen::Vector3d& p_CQ) {
   const auto pixel = camera.Project(p_CQ);
@@ -81,10 +124,13 @@ std::optional<Face> FaceOf(const FrameState& frame, double wall_m, const Eigen::
 
 DepthTheory::DepthTheory(const StructuredLightSensor& sensor)
     : options_(sensor.options()),
-      image_camera_(sensor.nominal().depth),
-      rays_(InfraredCamera(options_).Scaled(1.0 / kStride)),
+      cameras_(sensor.unit().cameras),
+      image_camera_(sensor.cameras().depth),
+      rays_(cameras_.depth.Scaled(1.0 / kStride)),
       block_px_(BlockArea(options_)),
-      response_(options_.infrared, rays_.camera(), {options_.projector_baseline_m, 0.0, 0.0}),
+      warp_density_(DisparityError::WarpDensity(sensor.unit().deviations.disparity_warp_px) *
+                    std::pow(options_.depth_width_px / DisparityRange::kImageWidth, 2)),
+      response_(sensor.infrared_response().WithCamera(rays_.camera())),
       range_(RangeOf(options_)) {}
 
 double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
@@ -101,7 +147,7 @@ double DepthTheory::NoiseDensity(const InfraredLight& light, double z_m) const {
   const double unit_px = range_.focal_times_baseline / (z_m * z_m) * 1e-3;
   const double steps_px2 = (range_.step_px * range_.step_px + unit_px * unit_px) / 12.0;
   return block_px_ * (fixed_px2 + (flicker_px2 + temporal_px2) / options_.averaged_frames) +
-         steps_px2 / options_.averaged_frames;
+         steps_px2 / options_.averaged_frames + warp_density_;
 }
 
 DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
@@ -111,12 +157,14 @@ DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
       caster.CastAovs(rays_, X_WB, lighting, {.offsets_px = {}, .p_WP = X_WB * response_.p_CP()});
   const double exposure = response_.Exposure(aovs);
   // The infra-red camera D is C unless depth is registered to colour.
-  const Pose X_DC =
-      options_.registered_depth ? Pose::Translation({options_.color_offset_m, 0.0, 0.0}) : Pose();
+  const Pose X_DC = options_.registered_depth ? cameras_.X_KD.inverse() : Pose();
   const Pose X_CD = X_DC.inverse();
   const Pose X_OC = frame.X_CO.inverse();
   const Eigen::Vector3d n_C = frame.X_CO.rotation().col(2);
   const CameraParameters& k = rays_.camera().parameters();
+  const DisparityGradient gradient{.infrared = cameras_.depth,
+                                   .focal_times_baseline = range_.focal_times_baseline,
+                                   .is_registered = options_.registered_depth};
   DepthMatrix information = DepthMatrix::Zero();
   for (int v = 0; v < aovs.depth_m.rows; ++v) {
     for (int u = 0; u < aovs.depth_m.cols; ++u) {
@@ -135,20 +183,17 @@ DepthMatrix DepthTheory::Information(const FrameState& frame, double wall_m,
       if (!face->is_wall && response_.Correlation(light) < options_.matching.least_correlation) {
         continue;
       }
-      const Eigen::Matrix<double, kDepthUnknowns, 1> gradient =
-          range_.focal_times_baseline *
-          DisparityGradient(
-              {.r = r,
-               .n = X_DC.rotation() * n_C,
-               .p = X_DC * Eigen::Vector3d(frame.X_CO.translation() + face->height_m * n_C),
-               .R_DC = X_DC.rotation(),
-               .height_m = face->height_m},
-              face->is_wall);
-      information +=
-          kStride * kStride / NoiseDensity(light, z_m) * (gradient * gradient.transpose());
+      const PlaneRay at{
+          .r = r,
+          .n = X_DC.rotation() * n_C,
+          .p = X_DC * Eigen::Vector3d(frame.X_CO.translation() + face->height_m * n_C),
+          .R_DC = X_DC.rotation(),
+          .height_m = face->height_m};
+      information.selfadjointView<Eigen::Lower>().rankUpdate(
+          gradient.At(at, face->is_wall), kStride * kStride / NoiseDensity(light, z_m));
     }
   }
-  return information;
+  return DepthMatrix(information.selfadjointView<Eigen::Lower>());
 }
 
 }  // namespace fenestra

@@ -223,8 +223,8 @@ class Side {
 
 }  // namespace
 
-std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame, const ElectronPicture& view,
-                                                  int unknowns) {
+std::optional<Eigen::MatrixXd> PictureInformation(const FrameState& frame,
+                                                  const ElectronPicture& view, int unknowns) {
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(unknowns, unknowns);
   for (int side = 0; side < kSides; ++side) {
     auto outer = NodesOf(frame, view, FrameEdge::kOuter, side, unknowns);

@@ -5,6 +5,7 @@
 #include "core/io/srgb.h"
 #include "experiments/cramer_rao/cramer_rao.h"
 #include "experiments/cramer_rao/picture_information.h"
+#include "vision/calibration/bundle_adjustment.h"
 
 namespace fenestra {
 namespace {
@@ -77,9 +78,10 @@ std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
 }
 
 std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
-                                               const RgbdCalibration& cameras,
-                                               const ColorCameraOptions& options,
+                                               const StructuredLightSensor& sensor,
                                                const cv::Mat3b& color, const DepthMatrix& depth) {
+  const RgbdCalibration& cameras = sensor.cameras();
+  const ColorCameraOptions& options = sensor.options().color;
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(kColorUnknowns, kColorUnknowns);
   information.topLeftCorner<kDepthUnknowns, kDepthUnknowns>() = depth;
   const PixelNoise noise = PixelNoise::Encoded(options.sensor, {.exposure_s = 0.0, .gain = 1.0});
@@ -95,7 +97,12 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
         .spread = {.centre_sigma_px = scale * options.lens.blur_sigma_px,
                    .corner_sigma_px = scale * options.lens.corner_blur_sigma_px},
         .blur_unknown = kColorBlurs + channel,
-        .level_unknown = kColorLevels + channel * kLevelsOfPicture};
+        .level_unknown = kColorLevels + channel * kLevelsOfPicture,
+        .camera_unknown = kUnitUnknown,
+        // Depth that is registered to the colour camera is scored in it.
+        .pose_unknown = sensor.options().registered_depth
+                            ? std::nullopt
+                            : std::optional(kUnitUnknown + kUnitPose)};
     const auto picture = PictureInformation(frame, view, kColorUnknowns);
     if (!picture) return std::nullopt;
     information += *picture;
@@ -106,6 +113,8 @@ std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
 std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
                                          const PriorKnowledge& knowledge) {
   Eigen::MatrixXd known = WithSizePrior(information, knowledge);
+  known = knowledge.calibration ? WithNuisance(known, kUnitUnknown, *knowledge.calibration)
+                                : WithKnown(known, kUnitUnknown, kUnitParameters);
   if (knowledge.wall_sigma_m) {
     known(kWallUnknown, kWallUnknown) += 1.0 / (*knowledge.wall_sigma_m * *knowledge.wall_sigma_m);
   } else {
@@ -117,7 +126,7 @@ std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
 
 std::optional<TrialInformation> InformationOf(const StereoRig& rig, const StereoShot& shot,
                                               const GroundTruth& truth, double border_m,
-                                              const std::optional<PairMatrix>& calibration) {
+                                              const std::optional<Eigen::MatrixXd>& calibration) {
   if (!truth.target || !truth.in_view) return std::nullopt;
   const StereoRigOptions& options = rig.options();
   const auto fisher =
@@ -137,15 +146,15 @@ std::optional<TrialInformation> InformationOf(const StructuredLightSensor& senso
                                               const RgbdObservation& observation,
                                               const GroundTruth& truth, const TargetOptions& target,
                                               const RayCaster& caster, const Lighting& lighting,
-                                              const Pose& X_WB) {
+                                              const Pose& X_WB,
+                                              const std::optional<Eigen::MatrixXd>& calibration) {
   if (!truth.target || !truth.in_view) return std::nullopt;
   const FrameState frame = FrameState::Of(*truth.target, target.border_m);
   const DepthMatrix depth =
       theory.Information(frame, target.setback_m, observation.depth, caster, lighting, X_WB);
-  const auto fisher =
-      RgbdInformation(frame, sensor.nominal(), sensor.options().color, observation.color, depth);
+  const auto fisher = RgbdInformation(frame, sensor, observation.color, depth);
   if (!fisher) return std::nullopt;
-  return TrialInformation{SensorKind::kRgbd, *fisher, {}};
+  return TrialInformation{SensorKind::kRgbd, *fisher, calibration};
 }
 
 std::optional<Eigen::Matrix3d> BoundOf(const TrialInformation& information,

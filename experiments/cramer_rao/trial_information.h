@@ -41,8 +41,7 @@ std::optional<Eigen::Matrix3d> StereoBound(const Eigen::MatrixXd& information,
 /// itself how bright it is beside the frame's sides; black level and dark current are taken to be
 /// small. nullopt if the colour camera does not see the whole frame.
 std::optional<Eigen::MatrixXd> RgbdInformation(const FrameState& frame,
-                                               const RgbdCalibration& cameras,
-                                               const ColorCameraOptions& options,
+                                               const StructuredLightSensor& sensor,
                                                const cv::Mat3b& color, const DepthMatrix& depth);
 
 /// The bound on the centroid's covariance [m²]; nullopt where there is none: without a return from
@@ -55,15 +54,15 @@ std::optional<Eigen::Matrix3d> RgbdBound(const Eigen::MatrixXd& information,
 struct TrialInformation {
   SensorKind sensor;
   Eigen::MatrixXd fisher;  ///< Unknowns as in StereoInformation or RgbdInformation.
-  /// Covariance of the nominal calibration's error; nullopt: it is the truth.
-  std::optional<PairMatrix> calibration;
+  /// Covariance of the nominal calibration's error, see PriorKnowledge; nullopt: it is the truth.
+  std::optional<Eigen::MatrixXd> calibration;
 };
 
 /// nullopt without a target that is wholly in view. border_m: width of the target's frame, seen
 /// from the front.
 std::optional<TrialInformation> InformationOf(const StereoRig& rig, const StereoShot& shot,
                                               const GroundTruth& truth, double border_m,
-                                              const std::optional<PairMatrix>& calibration);
+                                              const std::optional<Eigen::MatrixXd>& calibration);
 
 /// The target in its wall, as the scene has it.
 struct TargetOptions {
@@ -77,7 +76,8 @@ std::optional<TrialInformation> InformationOf(const StructuredLightSensor& senso
                                               const RgbdObservation& observation,
                                               const GroundTruth& truth, const TargetOptions& target,
                                               const RayCaster& caster, const Lighting& lighting,
-                                              const Pose& X_WB);
+                                              const Pose& X_WB,
+                                              const std::optional<Eigen::MatrixXd>& calibration);
 
 /// The bound on the covariance of p_CO for an unbiased estimate with this knowledge [m²]; nullopt
 /// if the observation does not determine the centroid.

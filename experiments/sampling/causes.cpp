@@ -34,7 +34,9 @@ const char* CauseOf(FactorGroup group) {
 bool ActsIn(const std::string& source, const Cell& cell) {
   if (source == kShotSource) return true;
   if (!IsStream(source)) return Concerns(GroupOf(source), cell.sensor);
-  return cell.sensor == SensorKind::kStereo && cell.settings.stereo_rig_per_trial;
+  if (cell.sensor == SensorKind::kStereo) return cell.settings.stereo_rig_per_trial;
+  return source == kRigSource && cell.settings.rgbd_unit_per_trial &&
+         cell.settings.rgbd_calibration.source != RgbdCalibrationSource::kExact;
 }
 
 }  // namespace
@@ -49,10 +51,8 @@ std::vector<Cause> CausesOf(const Study& study, const Cell& cell) {
 }
 
 std::vector<std::string> SourcesOf(const StudyPart& part) {
-  std::vector<std::string> sources{kShotSource};
-  if (Uses(part, SensorKind::kStereo)) {
-    sources.insert(sources.end(), {kRigSource, kCalibrationSource});
-  }
+  std::vector<std::string> sources{kShotSource, kRigSource};
+  if (Uses(part, SensorKind::kStereo)) sources.emplace_back(kCalibrationSource);
   for (const Factor& factor : part.factors) {
     if (std::holds_alternative<Distribution>(factor.setting)) sources.push_back(factor.name);
   }

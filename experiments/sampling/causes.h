@@ -5,12 +5,13 @@
 namespace fenestra {
 
 /// The causes of a cell's errors in a sensitivity design: those of its part, without the sources
-/// that do nothing in this cell (a stereo rig, before the RGB-D sensor or where all trials share
-/// one) and without causes that have no source left. Empty with other designs.
+/// that do nothing in this cell (a rig or unit that all trials share or that is as told; a
+/// calibration, of the RGB-D sensor) and without causes that have no source left. Empty with other
+/// designs.
 std::vector<Cause> CausesOf(const Study& study, const Cell& cell);
 
-/// The causes of a part whose study names none: noise (shot), calibration (rig and calibration,
-/// stereo only), and the drawn factors by what they belong to: pose, light, scene, sensor.
+/// The causes of a part whose study names none: noise (shot), calibration (rig, and calibration
+/// with stereo), and the drawn factors by what they belong to: pose, light, scene, sensor.
 std::vector<Cause> DefaultCauses(const StudyPart& part);
 
 /// All sources of randomness of a part that a cause may name.

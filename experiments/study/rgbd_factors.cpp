@@ -7,8 +7,9 @@ namespace {
 #define FIELD(path) FENESTRA_FIELD(path)
 
 void AddRgbdDepth(FactorTable& t) {
-  t.Choice("rgbd_driver", FIELD(rgbd.driver), {"microsoft", "openni"},
-           "Driver of the depth camera: 0.8–4 m in steps of 1/16 px, or 0.5–9 m in steps of 1/8 px.")
+  t.Choice(
+       "rgbd_driver", FIELD(rgbd.driver), {"microsoft", "openni"},
+       "Driver of the depth camera: 0.8–4 m in steps of 1/16 px, or 0.5–9 m in steps of 1/8 px.")
       .Switch("rgbd_near_mode", FIELD(rgbd.near_mode),
               "Whether the range of Microsoft's driver is 0.4–3 m instead of 0.8–4 m.")
       .Integer("rgbd_depth_width_px", FIELD(rgbd.depth_width_px), {64, 4096},
@@ -77,6 +78,16 @@ void AddRgbdColor(FactorTable& t) {
                "Height of the colour image.")
       .Number("rgbd_color_focal_px", FIELD(rgbd.color.focal_px), {10.0, 1e4},
               "Focal length of the colour camera.")
+      .Number("rgbd_color_k1", FIELD(rgbd.color.distortion.k1), {-1.0, 1.0},
+              "Radial distortion of the colour lens, second order.")
+      .Number("rgbd_color_k2", FIELD(rgbd.color.distortion.k2), {-2.0, 2.0},
+              "Radial distortion of the colour lens, fourth order.")
+      .Number("rgbd_color_k3", FIELD(rgbd.color.distortion.k3), {-2.0, 2.0},
+              "Radial distortion of the colour lens, sixth order.")
+      .Number("rgbd_color_p1", FIELD(rgbd.color.distortion.p1), {-0.1, 0.1},
+              "Tangential distortion of the colour lens, coefficient p1 of OpenCV's model.")
+      .Number("rgbd_color_p2", FIELD(rgbd.color.distortion.p2), {-0.1, 0.1},
+              "Tangential distortion of the colour lens, coefficient p2 of OpenCV's model.")
       .Number("rgbd_color_offset_m", FIELD(rgbd.color_offset_m), {-1.0, 1.0},
               "Position of the colour camera to the right of the depth camera.")
       .Number("rgbd_color_f_number", FIELD(rgbd.color.lens.f_number), {0.7, 32.0},
@@ -117,8 +128,49 @@ void AddRgbdColor(FactorTable& t) {
                "other pixel.");
 }
 
+void AddRgbdUnit(FactorTable& t) {
+  t.Switch("rgbd_unit_per_trial", FIELD(rgbd_unit_per_trial),
+           "Whether each trial has a sensor of its own, which deviates from what is known of it, "
+           "instead of one that all share.")
+      .Choice("rgbd_calibration", FIELD(rgbd_calibration.source), {"exact", "perturbed", "factory"},
+              "Calibration that detectors are given: the truth, one of this unit with random "
+              "errors, or the constants of a driver.")
+      .Number("rgbd_calibration_focal_error_percent",
+              FIELD(rgbd_calibration.perturbed.focal_length), {0.0, 20.0, kPercent},
+              "Standard deviation of each camera's focal length from a perturbed calibration.")
+      .Number("rgbd_calibration_principal_point_error_px",
+              FIELD(rgbd_calibration.perturbed.principal_point_px), {0.0, 100.0},
+              "Standard deviation of each camera's principal point from a perturbed calibration, "
+              "per axis, in pixels of a 640-wide image.")
+      .Number("rgbd_calibration_distortion_error_percent",
+              FIELD(rgbd_calibration.perturbed.color_distortion), {0.0, 50.0, kPercent},
+              "Standard deviation of each distortion coefficient of the colour lens from a "
+              "perturbed calibration.")
+      .Number("rgbd_calibration_rotation_error_mrad",
+              FIELD(rgbd_calibration.perturbed.rotation_rad), {0.0, 50.0, kMilli},
+              "Standard deviation per axis of the rotation between the cameras from a perturbed "
+              "calibration.")
+      .Number("rgbd_calibration_translation_error_mm",
+              FIELD(rgbd_calibration.perturbed.translation_m), {0.0, 50.0, kMilli},
+              "Standard deviation per axis of the translation between the cameras from a "
+              "perturbed calibration.")
+      .Number("rgbd_disparity_scale_error_percent",
+              FIELD(rgbd_calibration.perturbed.disparity_scale), {0.0, 20.0, kPercent},
+              "Standard deviation of the scale of disparities in a perturbed calibration.")
+      .Number("rgbd_disparity_offset_error_px",
+              FIELD(rgbd_calibration.perturbed.disparity_offset_px), {0.0, 5.0},
+              "Standard deviation of the offset of disparities in a perturbed calibration, in "
+              "pixels of a 640-wide image.")
+      .Number("rgbd_disparity_warp_px", FIELD(rgbd_calibration.perturbed.disparity_warp_px),
+              {0.0, 5.0},
+              "RMS of the smooth error of disparities over the image in a perturbed calibration, "
+              "in pixels of a 640-wide image.");
+}
+
 void AddRgbdMotion(FactorTable& t) {
   AddMotionFactors(t, "rgbd", FIELD(rgbd.motion));
+  t.Number("rgbd_color_delay_ms", FIELD(rgbd.color_delay_s), {-1000.0, 1000.0, kMilli},
+           "Time from the depth image to the colour image.");
   t.Number("rgbd_infrared_readout_ms", FIELD(rgbd.infrared_readout_s), {0.0, 1000.0, kMilli},
            "Time from the depth camera's first row to its last in a rolling shutter; 0: none.")
       .Number("rgbd_color_readout_ms", FIELD(rgbd.color.readout_s), {0.0, 1000.0, kMilli},
@@ -132,6 +184,7 @@ void AddRgbdMotion(FactorTable& t) {
 void AddRgbdFactors(FactorTable& table) {
   AddRgbdDepth(table);
   AddRgbdColor(table);
+  AddRgbdUnit(table);
   AddRgbdMotion(table);
 }
 

@@ -27,6 +27,18 @@ Scene MakeScene(const TrialSettings& settings) {
   return MakeFacade(settings.facade);
 }
 
+UnitDeviations RgbdCalibrationChoice::deviations() const {
+  switch (source) {
+    case RgbdCalibrationSource::kExact:
+      return {};
+    case RgbdCalibrationSource::kPerturbed:
+      return perturbed;
+    case RgbdCalibrationSource::kFactory:
+      return UnitDeviations::Factory();
+  }
+  FENESTRA_CHECK(false, "calibration source out of range");
+}
+
 Pose RigPoseOf(const TrialSettings& settings, const Scene& scene) {
   // Without a window the rig looks at the place where it would be: the world's origin.
   return RigPose(settings.viewpoint, scene.target ? scene.target->X_WO : Pose());
@@ -43,6 +55,7 @@ void Validate(const TrialSettings& settings, SensorKind sensor) {
     Validate(RenderOptions{.edge_samples_per_pixel = settings.stereo.edge_samples_per_pixel});
   } else {
     Validate(settings.rgbd);
+    Validate(settings.rgbd_calibration.deviations());
     Validate(RenderOptions{.edge_samples_per_pixel = settings.rgbd.edge_samples_per_pixel});
   }
 }

@@ -10,6 +10,7 @@
 #include "scenes/targets/flat_targets.h"
 #include "sim/motion/rig_pose.h"
 #include "sim/stereo/stereo_rig.h"
+#include "sim/structured_light/sensor_unit.h"
 #include "sim/structured_light/structured_light_sensor.h"
 
 namespace fenestra {
@@ -38,6 +39,21 @@ struct CalibrationChoice {
   double shake_translation_m = 1e-4;
 };
 
+/// Where a detector's knowledge of its RGB-D sensor comes from.
+enum class RgbdCalibrationSource {
+  kExact,      ///< All is as designed.
+  kPerturbed,  ///< This unit was calibrated, with what errors that leaves.
+  kFactory,    ///< The driver's constants, which are the same for all units.
+};
+
+/// The sensor is told as designed, and built with deviations.
+struct RgbdCalibrationChoice {
+  RgbdCalibrationSource source = RgbdCalibrationSource::kPerturbed;
+  UnitDeviations perturbed = UnitDeviations::Calibrated();  ///< kPerturbed.
+
+  UnitDeviations deviations() const;
+};
+
 inline constexpr const char* kPaperTargetScene = "paper_target";
 inline constexpr const char* kFacadeScene = "facade";
 
@@ -56,6 +72,10 @@ struct TrialSettings {
   /// trials of the study share one.
   bool stereo_rig_per_trial = true;
   StructuredLightOptions rgbd;
+  RgbdCalibrationChoice rgbd_calibration;
+  /// Whether each trial has an RGB-D sensor of its own; otherwise all trials of the study share
+  /// one.
+  bool rgbd_unit_per_trial = true;
 };
 
 /// The options of the painted target; frame_width_m is the width of its border.

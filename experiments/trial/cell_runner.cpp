@@ -32,34 +32,55 @@ CellRunner::CellRunner(const Study& study, const Cell& cell,
     sensor_is_drawn |= group == FactorGroup::kStereo || group == FactorGroup::kRgbd;
   }
   if (!scene_is_drawn) shared_world_ = std::make_shared<const World>(cell.settings);
-  if (cell.sensor == SensorKind::kStereo) sensor_is_drawn |= cell.settings.stereo_rig_per_trial;
+  const TrialSettings& settings = cell.settings;
+  // All units of a design are told to be as designed: they share detectors.
+  std::optional<SensorCalibration> calibration;
+  if (cell.sensor == SensorKind::kRgbd && !sensor_is_drawn) {
+    shared_design_.emplace(settings.rgbd);
+    calibration = shared_design_->nominal();
+  }
+  sensor_is_drawn |= cell.sensor == SensorKind::kStereo
+                         ? settings.stereo_rig_per_trial
+                         : settings.rgbd_unit_per_trial &&
+                               settings.rgbd_calibration.source != RgbdCalibrationSource::kExact;
   if (!sensor_is_drawn) {
-    shared_instrument_ = std::make_shared<const Instrument>(
-        MakeInstrument(cell.settings, SharedStreams(study, cell)));
-    for (const DetectorChoice& choice : detector_choices_) {
-      shared_detectors_.push_back(maker_->Make(choice, shared_instrument_->calibration));
-    }
+    shared_instrument_ =
+        std::make_shared<const Instrument>(MakeInstrument(settings, SharedStreams(study, cell)));
+    calibration = shared_instrument_->calibration;
+  }
+  if (!calibration) return;
+  for (const DetectorChoice& choice : detector_choices_) {
+    shared_detectors_.push_back(maker_->Make(choice, *calibration));
   }
 }
 
 CellRunner::Instrument CellRunner::MakeInstrument(const TrialSettings& settings,
                                                   const TrialStreams& streams) const {
   if (cell_.sensor == SensorKind::kRgbd) {
-    StructuredLightSensor sensor(settings.rgbd);
+    const UnitDeviations deviations = settings.rgbd_calibration.deviations();
+    StructuredLightSensor sensor =
+        (shared_design_ ? *shared_design_ : StructuredLightSensor(settings.rgbd))
+            .Unit(deviations, streams.rig);
     const RgbdCalibration calibration = sensor.nominal();
     const DepthTheory theory(sensor);
+    std::optional<Eigen::MatrixXd> covariance;
+    if (settings.rgbd_calibration.source != RgbdCalibrationSource::kExact) {
+      covariance = UnitCovariance(DesignOf(settings.rgbd), deviations);
+    }
     return {.sensor = std::move(sensor),
             .calibration = calibration,
-            .calibration_covariance = {},
+            .calibration_covariance = covariance,
             .depth_theory = theory};
   }
   const StereoRig built(settings.stereo, streams.rig);
   CalibratedRig calibrated =
       Calibrated(built, settings.stereo_calibration, streams.calibration, cache_);
-  return {.sensor = std::move(calibrated.rig),
-          .calibration = calibrated.nominal,
-          .calibration_covariance = calibrated.covariance,
-          .depth_theory = {}};
+  Instrument instrument{.sensor = std::move(calibrated.rig),
+                        .calibration = calibrated.nominal,
+                        .calibration_covariance = {},
+                        .depth_theory = {}};
+  if (calibrated.covariance) instrument.calibration_covariance = *calibrated.covariance;
+  return instrument;
 }
 
 std::shared_ptr<const CellRunner::World> CellRunner::WorldOf(const TrialSettings& settings) const {
@@ -95,8 +116,9 @@ SimulatedTrial CellRunner::Simulate(int trial_index) const {
   const RgbdObservation seen = sensor.Observe(world->caster, settings.lighting, X_WB, shot);
   simulated.observation = seen;
   simulated.truth = sensor.Truth(world->scene, X_WB);
-  simulated.information = InformationOf(sensor, *instrument->depth_theory, seen, simulated.truth,
-                                        TargetOf(settings), world->caster, settings.lighting, X_WB);
+  simulated.information =
+      InformationOf(sensor, *instrument->depth_theory, seen, simulated.truth, TargetOf(settings),
+                    world->caster, settings.lighting, X_WB, instrument->calibration_covariance);
   return simulated;
 }
 
@@ -151,7 +173,7 @@ TrueSensor CellRunner::SensorOf(const SimulatedTrial& simulated) const {
     return sensor(rig->cameras(), rig->X_BL(), rig->options().motion);
   }
   const auto& rgbd = std::get<StructuredLightSensor>(instrument->sensor);
-  return sensor(rgbd.nominal(), rgbd.X_WD(Pose()), rgbd.options().motion);
+  return sensor(rgbd.cameras(), rgbd.X_WD(Pose()), rgbd.options().motion);
 }
 
 TruthImages CellRunner::TruthOf(const SimulatedTrial& simulated) const {

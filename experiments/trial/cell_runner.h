@@ -43,8 +43,9 @@ class CellRunner final : public TrialRunner {
   struct Instrument {
     std::variant<StereoRig, StructuredLightSensor> sensor;
     SensorCalibration calibration;
-    std::optional<PairMatrix> calibration_covariance;  ///< For a stereo rig; see CalibratedRig.
-    std::optional<DepthTheory> depth_theory;           ///< For a structured-light sensor.
+    /// Of the calibration's error; see PriorKnowledge.
+    std::optional<Eigen::MatrixXd> calibration_covariance;
+    std::optional<DepthTheory> depth_theory;  ///< For a structured-light sensor.
   };
 
   Instrument MakeInstrument(const TrialSettings& settings, const TrialStreams& streams) const;
@@ -58,7 +59,9 @@ class CellRunner final : public TrialRunner {
   CalibrationCache cache_ = CalibrationCache::OfUser();
   std::shared_ptr<const World> shared_world_;            ///< Null if trials draw the scene.
   std::shared_ptr<const Instrument> shared_instrument_;  ///< Null if trials draw the sensor.
-  /// Empty if trials draw the sensor.
+  /// As designed; none for a stereo rig, or if trials draw the design.
+  std::optional<StructuredLightSensor> shared_design_;
+  /// Empty if trials draw the calibration.
   std::vector<std::unique_ptr<Detector>> shared_detectors_;
 };
 

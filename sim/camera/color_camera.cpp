@@ -51,7 +51,9 @@ RenderOptions RenderingOf(const ColorCameraOptions& options, int edge_samples_pe
 }  // namespace
 
 CameraModel DesignOf(const ColorCameraOptions& o) {
-  return CameraModel::Pinhole(o.width_px, o.height_px, o.focal_px);
+  CameraParameters k = CameraModel::Pinhole(o.width_px, o.height_px, o.focal_px).parameters();
+  k.distortion = o.distortion;
+  return CameraModel(k);
 }
 
 void Validate(const ColorCameraOptions& o) {
@@ -65,17 +67,16 @@ void Validate(const ColorCameraOptions& o) {
   Validate(RollingShutter{.motion = {}, .readout_s = o.readout_s});
 }
 
-ColorCamera::ColorCamera(const ColorCameraOptions& options, const Pose& X_BK,
-                         const RigMotion& motion, int edge_samples_per_pixel)
+ColorCamera::ColorCamera(const ColorCameraOptions& options, const CameraModel& camera,
+                         const Pose& X_BK, const RigMotion& motion, int edge_samples_per_pixel,
+                         const RandomStream& pixels)
     : options_(Validated(options)),
       X_BK_(X_BK),
       shutter_{.motion = motion, .readout_s = options.readout_s},
       edge_samples_per_pixel_(edge_samples_per_pixel),
-      rays_(DesignOf(options)),
+      rays_(camera),
       illumination_(RelativeIllumination(rays_, options.lens)),
-      // One fixed pattern: all cameras of a study are the same unit.
-      sensor_(options.sensor, {options.width_px, options.height_px},
-              RandomStream(0).Child("color_camera")) {}
+      sensor_(options.sensor, {options.width_px, options.height_px}, pixels) {}
 
 QuarterImages ColorCamera::LightDuring(double exposure_s, const RayCaster& caster,
                                        const Lighting& lighting, const Pose& X_WB,

@@ -16,6 +16,10 @@ struct ColorCameraOptions {
   int width_px = 640;
   int height_px = 480;
   double focal_px = 531.15;  ///< At 640 x 480.
+  /// Of the Kinect that took the TUM RGB-D benchmark's freiburg2 sequences; that of freiburg1 had
+  /// 0.262, -0.953, -0.0054, 0.0026 and 1.163.
+  BrownConrady distortion{
+      .k1 = 0.231222, .k2 = -0.784899, .p1 = -0.003257, .p2 = -0.000105, .k3 = 0.917205};
 
   LensOptions lens{.f_number = 2.0,
                    .transmission = 0.9,
@@ -55,9 +59,10 @@ void Validate(const ColorCameraOptions& options);
 /// Turns radiance in three channels into an sRGB image, by lens, exposure and noise.
 class ColorCamera {
  public:
-  /// X_BK: pose of the camera on a rig with this motion; edge_samples_per_pixel: see RenderOptions.
-  ColorCamera(const ColorCameraOptions& options, const Pose& X_BK, const RigMotion& motion,
-              int edge_samples_per_pixel);
+  /// `camera`: as it truly is, of the options' size. X_BK: its pose on a rig with this motion;
+  /// edge_samples_per_pixel: see RenderOptions; `pixels`: the stream of their fixed pattern.
+  ColorCamera(const ColorCameraOptions& options, const CameraModel& camera, const Pose& X_BK,
+              const RigMotion& motion, int edge_samples_per_pixel, const RandomStream& pixels);
 
   /// An image in B, G, R. X_WB: pose of the rig in the middle of the image's exposure. Rows are
   /// exposed one after the other, and motion during the exposure blurs the image.

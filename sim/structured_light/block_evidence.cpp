@@ -17,7 +17,7 @@ enum BoxField { kDots, kDots2, kAmbient, kSmooth2, kStrongest, kStrongestDispari
 
 // Share of each pixel in a side of this length.
 std::vector<float> Weights(double side_px) {
-  const int reach = static_cast<int>(std::ceil(0.5 * side_px - 0.5));
+  const int reach = BlockReach(side_px);
   std::vector<float> weights;
   for (int i = -reach; i <= reach; ++i) {
     const double covered = std::min(i + 0.5, 0.5 * side_px) - std::max(i - 0.5, -0.5 * side_px);
@@ -98,6 +98,10 @@ double NormalWithTail(double probability) {
 }
 
 }  // namespace
+
+int BlockReach(double side_px) {
+  return static_cast<int>(std::ceil(0.5 * side_px - 0.5));
+}
 
 BlockGatherer::BlockGatherer(double width_px, double height_px, double pattern_mean,
                              double spread_px)

@@ -26,6 +26,9 @@ struct BlockEvidence {
   float strongest_disparity = 0.0f;
 };
 
+/// Number of pixels from the centre of a block to its outermost ones, which may count in part.
+int BlockReach(double side_px);
+
 /// Computes the evidence of blocks whose sides need not be whole pixels: the outermost pixels count
 /// in part.
 class BlockGatherer {

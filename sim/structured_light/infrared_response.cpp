@@ -51,6 +51,12 @@ InfraredResponse::InfraredResponse(const InfraredOptions& options, const CameraM
   }
 }
 
+InfraredResponse InfraredResponse::WithCamera(const CameraModel& camera) const {
+  InfraredResponse changed = *this;
+  changed.camera_ = camera.parameters();
+  return changed;
+}
+
 Eigen::Vector3d InfraredResponse::RayAt(cv::Point pixel) const {
   return {(pixel.x - camera_.cx_px) / camera_.fx_px, (pixel.y - camera_.cy_px) / camera_.fy_px,
           1.0};

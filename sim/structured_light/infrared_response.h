@@ -76,6 +76,9 @@ class InfraredResponse {
   InfraredResponse(const InfraredOptions& options, const CameraModel& camera,
                    const Eigen::Vector3d& p_CP);
 
+  /// The same with another camera.
+  InfraredResponse WithCamera(const CameraModel& camera) const;
+
   const InfraredOptions& options() const { return options_; }
   const Eigen::Vector3d& p_CP() const { return p_CP_; }
 

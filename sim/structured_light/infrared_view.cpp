@@ -28,6 +28,24 @@ CameraModel WithFewPixels(const CameraModel& camera) {
 
 }  // namespace
 
+CameraModel InfraredImageLayout::CameraOf(const CameraModel& depth) const {
+  CameraParameters k = depth.parameters();
+  k.width_px = scale * k.width_px;
+  k.height_px = scale * k.height_px + 2 * reach.height;
+  k.fx_px *= scale;
+  k.fy_px *= scale;
+  k.cx_px = scale * k.cx_px + reach.width;
+  k.cy_px = scale * k.cy_px + reach.height;
+  return CameraModel(k);
+}
+
+RollingShutter InfraredImageLayout::ShutterOf(const CameraModel& depth,
+                                              const RollingShutter& shutter) const {
+  const double rows = scale * depth.height_px();
+  return {.motion = shutter.motion,
+          .readout_s = shutter.readout_s * (rows + 2 * reach.height) / rows};
+}
+
 Eigen::Vector2d PixelParts::OffsetOf(int part) {
   // The points of Hammersley's net: v is u's binary fraction in reverse.
   const int reversed = ((part & 1) << 2) | (part & 2) | ((part & 4) >> 2);

@@ -35,6 +35,32 @@ struct InfraredView {
   std::vector<PixelParts> parts;
 };
 
+/// The infra-red image in which depth is matched.
+///
+/// Blocks that reach `reach` pixels from their centre lie in an image `2 reach` pixels larger than
+/// their centres. The camera has these rows to spare, but not these columns: depth pixel (u, v) is
+/// matched by the block around infra-red pixel (scale u + reach.width, scale v + reach.height), the
+/// depth image is as wide as the infra-red one, and its last 2 reach.width / scale columns have no
+/// block. ROS kinect_calibration/technical finds depth displaced by 4.8 and 3.9 px against the
+/// infra-red image; raw depth images of Kinects have 8 empty columns on the right and no others.
+struct InfraredImageLayout {
+  int scale = 1;   ///< Infra-red pixels per depth pixel.
+  cv::Size reach;  ///< [infra-red px]
+
+  /// The infra-red camera of this depth camera: each of its pixels has the ray of the depth pixel
+  /// that it is the centre of.
+  CameraModel CameraOf(const CameraModel& depth) const;
+  /// From the first row of CameraOf to the last, if the depth image's own rows take readout_s.
+  RollingShutter ShutterOf(const CameraModel& depth, const RollingShutter& shutter) const;
+  cv::Point CentreOf(cv::Point depth_pixel) const {
+    return scale * depth_pixel + cv::Point(reach.width, reach.height);
+  }
+  /// Whether a depth pixel's block lies in the infra-red image.
+  bool HasBlock(cv::Point depth_pixel, const CameraModel& depth) const {
+    return CentreOf(depth_pixel).x + reach.width < scale * depth.width_px();
+  }
+};
+
 /// Casts the rays of an infra-red camera, which is the rig's frame. Frame C: the camera; p_CP: the
 /// projector. X_WC: the pose in the middle of the image, if the rig moves.
 class InfraredRays {

@@ -9,18 +9,6 @@
 namespace fenestra {
 namespace {
 
-// The infra-red camera: each of its pixels `scale` u, v has the ray of the depth pixel u, v.
-CameraModel ScaledUp(const CameraModel& depth, int scale) {
-  CameraParameters parameters = depth.parameters();
-  parameters.width_px *= scale;
-  parameters.height_px *= scale;
-  parameters.fx_px *= scale;
-  parameters.fy_px *= scale;
-  parameters.cx_px *= scale;
-  parameters.cy_px *= scale;
-  return CameraModel(parameters);
-}
-
 std::vector<float> Normals(const RandomStream& stream, size_t count) {
   std::vector<float> values(count);
   stream.FillNormals(values);
@@ -110,15 +98,26 @@ cv::Mat1w InfraredImage(const InfraredResponse& response, const SampledPattern& 
 MatchedDepth::MatchedDepth(const InfraredOptions& infrared, const PatternMatchingOptions& matching,
                            const CameraModel& depth, int scale, double baseline_m,
                            const DisparityRange& range, const RollingShutter& shutter)
-    : matching_(matching),
+    : matching_(Validated(matching)),
       range_(range),
-      scale_(scale),
-      depth_size_(depth.width_px(), depth.height_px()),
-      rays_(ScaledUp(depth, scale), shutter),
+      shutter_(shutter),
+      depth_camera_(depth),
+      layout_{.scale = scale, .reach = {matching.block_width_px / 2, matching.block_height_px / 2}},
+      rays_(layout_.CameraOf(depth), layout_.ShutterOf(depth, shutter)),
       response_(infrared, rays_.camera(), {baseline_m, 0.0, 0.0}),
-      pattern_(infrared.dot_sigma_px),
-      matcher_(matching, pattern_, rays_.size(), 0.0,
-               matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth) {}
+      pattern_(std::make_shared<const SampledPattern>(infrared.dot_sigma_px)),
+      matcher_(std::make_shared<const PatternMatcher>(
+          matching, *pattern_, rays_.size(), 0.0,
+          matching.SearchEnd(range) * rays_.size().width / DisparityRange::kImageWidth)) {}
+
+MatchedDepth MatchedDepth::WithUnit(const CameraModel& depth, const DisparityError& error) const {
+  MatchedDepth unit = *this;
+  unit.depth_camera_ = depth;
+  unit.error_ = error;
+  unit.rays_ = InfraredRays(layout_.CameraOf(depth), layout_.ShutterOf(depth, shutter_));
+  unit.response_ = response_.WithCamera(unit.rays_.camera());
+  return unit;
+}
 
 ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& lighting,
                                      const Pose& X_WB, double unit_m, const RandomStream& shot,
@@ -126,25 +125,28 @@ ExplainedDepth MatchedDepth::Observe(const RayCaster& caster, const Lighting& li
   const InfraredView view = rays_.Cast(caster, X_WB, lighting, response_.p_CP());
   const double exposure = response_.Exposure(view.aovs);
   const cv::Mat1w infrared =
-      InfraredImage(response_, pattern_, rays_, view, exposure, shot.Child("laser_speckle"),
+      InfraredImage(response_, *pattern_, rays_, view, exposure, shot.Child("laser_speckle"),
                     image_noise.Child("infrared_noise"));
-  const PatternMatches matches = matcher_.Match(infrared, scale_);
+  const PatternMatches matches = matcher_->Match(infrared, layout_.scale);
   const MissingReturn missing(response_, exposure, matching_, range_);
   const double to_640 = DisparityRange::kImageWidth / rays_.size().width;
-  ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(depth_size_), .unit_m = unit_m},
-                        .no_return = cv::Mat1b::zeros(depth_size_),
+  const cv::Size size(depth_camera_.width_px(), depth_camera_.height_px());
+  ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
+                        .no_return = cv::Mat1b::zeros(size),
                         .infrared = infrared};
-  for (int v = 0; v < depth_size_.height; ++v) {
-    for (int u = 0; u < depth_size_.width; ++u) {
-      const cv::Point pixel(scale_ * u, scale_ * v);
+  for (int v = 0; v < size.height; ++v) {
+    for (int u = 0; u < size.width; ++u) {
+      const cv::Point pixel = layout_.CentreOf({u, v});
       double z_m = 0.0;
       NoReturn reason = NoReturn::kNone;
       if (std::isfinite(matches.disparity_px(pixel))) {
-        z_m = range_.Depth(static_cast<double>(matches.disparity_px(pixel)) * to_640);
+        const auto disparity_px =
+            static_cast<float>(static_cast<double>(matches.disparity_px(pixel)) * to_640);
+        z_m = range_.Depth(static_cast<double>(error_.Of(disparity_px, {u, v})));
         if (z_m == 0.0) reason = NoReturn::kRange;
       } else {
-        reason = matches.correlation(pixel) <= -1.0f ? NoReturn::kBorder
-                                                     : missing.Reason(view.aovs, pixel);
+        reason = layout_.HasBlock({u, v}, depth_camera_) ? missing.Reason(view.aovs, pixel)
+                                                         : NoReturn::kBorder;
       }
       result.depth.raw(v, u) = static_cast<uint16_t>(std::lround(z_m / unit_m));
       result.no_return(v, u) = static_cast<unsigned char>(reason);

@@ -27,12 +27,6 @@ cv::Mat1f BlockNoise(const RandomStream& stream, cv::Size size, cv::Size block) 
          std::sqrt(static_cast<float>(block.area()));
 }
 
-// Whether a block that reaches so far around pixel (u, v) lies in an image `scale` times as wide.
-bool Covers(cv::Size size, int reach_u, int reach_v, int u, int v, double scale) {
-  return u * scale >= reach_u && u * scale + reach_u <= size.width * scale - 1.0 &&
-         v * scale >= reach_v && v * scale + reach_v <= size.height * scale - 1.0;
-}
-
 // Width of one of the independent places of the search. A process of autocorrelation exp(-k²/4σ_p²)
 // exceeds a high level u at u/(2 √π σ_p) independent places a pixel (Rice): about two, for u = 4.
 constexpr double kPlaceWidth_px = 0.5;
@@ -69,15 +63,22 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
     : noise_(Validated(noise)),
       matching_(Validated(matching)),
       range_(range),
-      rays_(depth, shutter),
-      response_(infrared, depth, {baseline_m, 0.0, 0.0}),
+      shutter_(shutter),
+      layout_{.scale = 1,
+              .reach = {BlockReach(matching.block_width_px * depth.width_px() /
+                                   DisparityRange::kImageWidth),
+                        BlockReach(matching.block_height_px * depth.width_px() /
+                                   DisparityRange::kImageWidth)}},
+      rays_(layout_.CameraOf(depth), layout_.ShutterOf(depth, shutter)),
+      response_(infrared, rays_.camera(), {baseline_m, 0.0, 0.0}),
       pattern_mean_(static_cast<float>(response_.pattern_mean())),
       speckle_variance_(static_cast<float>(response_.SpeckleVariance())),
       flicker_over_fixed_(static_cast<float>(response_.FlickerOverFixed())),
       search_px_(matching.SearchEnd(range)),
       scale_(DisparityRange::kImageWidth / depth.width_px()),
       blocks_(matching.block_width_px / scale_, matching.block_height_px / scale_,
-              static_cast<double>(pattern_mean_), SpreadOf(infrared)) {
+              static_cast<double>(pattern_mean_), SpreadOf(infrared)),
+      depth_camera_(depth) {
   dots_chance_ = static_cast<float>(SumOfGaussian(2.0 * std::pow(SpreadOf(infrared), 2)));
   const SampledPattern pattern(infrared.dot_sigma_px);
   for (int i = 0; i < kPhases; ++i) {
@@ -89,6 +90,16 @@ ParametricDepth::ParametricDepth(const InfraredOptions& infrared,
         .match = static_cast<float>(pattern.Correlation(offset, step))};
     whole_besides_ += BesidesIn(phases_[static_cast<size_t>(i)]) / kPhases;
   }
+}
+
+ParametricDepth ParametricDepth::WithUnit(const CameraModel& depth,
+                                          const DisparityError& error) const {
+  ParametricDepth unit = *this;
+  unit.depth_camera_ = depth;
+  unit.error_ = error;
+  unit.rays_ = MovingRays(layout_.CameraOf(depth), layout_.ShutterOf(depth, shutter_));
+  unit.response_ = response_.WithCamera(unit.rays_.camera());
+  return unit;
 }
 
 BlockLight ParametricDepth::LightOf(const AovImages& aovs, double exposure) const {
@@ -158,16 +169,16 @@ float ParametricDepth::BestByChance(const Match& match, float enough, const Nois
       enough, noise.chance);
 }
 
-float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
+float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block, cv::Point centre,
                             const Noise& noise) const {
   // A saturated block does not even have noise that could match.
   if (block.ambient >= static_cast<float>(response_.options().saturation_dn - 0.5)) return kNaN;
-  const float own_px = light.disparity_px(pixel);
+  const float own_px = light.disparity_px(centre);
   const float strongest_px = block.strongest_disparity;
   Match match = MatchAt(block, own_px);
   float measured = Measured(match, noise.evidence);
   if (std::abs(strongest_px - own_px) > 1.0f) {
-    const Match rival = MatchAt(blocks_.At(light, pixel, strongest_px), strongest_px);
+    const Match rival = MatchAt(blocks_.At(light, centre, strongest_px), strongest_px);
     const float measured_rival = Measured(rival, noise.rival);
     if (measured_rival > measured) {
       match = rival;
@@ -179,10 +190,10 @@ float ParametricDepth::Read(const BlockLight& light, const BlockEvidence& block,
     return static_cast<float>(search_px_ * NormalShare(static_cast<double>(noise.temporal)));
   }
   if (measured < least || match.explained <= 0.0f) return kNaN;
-  return match.disparity_px + DisparityError(match, measured, noise);
+  return match.disparity_px + DisparityNoise(match, measured, noise);
 }
 
-float ParametricDepth::DisparityError(const Match& match, float measured,
+float ParametricDepth::DisparityNoise(const Match& match, float measured,
                                       const Noise& noise) const {
   // Variance besides pattern and noise disturbs a block as the laser's speckle disturbs a whole
   // one. A quarter of the variance of a step in brightness, where an outline crosses, counts. That
@@ -205,7 +216,7 @@ ExplainedDepth ParametricDepth::Observe(const RayCaster& caster, const Lighting&
   const AovImages aovs = rays_.CastAovs(caster, X_WB, lighting, response_.p_CP());
   const double exposure = response_.Exposure(aovs);
   const BlockLight light = LightOf(aovs, exposure);
-  const cv::Size size = aovs.depth_m.size();
+  const cv::Size size(depth_camera_.width_px(), depth_camera_.height_px());
   const cv::Size block(2 * blocks_.reach_u() + 1, 2 * blocks_.reach_v() + 1);
   const cv::Mat1f evidence = BlockNoise(image_noise.Child("evidence"), size, block);
   const cv::Mat1f rival = BlockNoise(image_noise.Child("rival"), size, block);
@@ -214,34 +225,30 @@ ExplainedDepth ParametricDepth::Observe(const RayCaster& caster, const Lighting&
   const cv::Mat1f flicker = BlockNoise(image_noise.Child("flicker"), size, block);
   const cv::Mat1f temporal = BlockNoise(image_noise.Child("disparity"), size, block);
   const MissingReturn missing(response_, exposure, matching_, range_);
-  const cv::Size reach(matching_.block_width_px / 2, matching_.block_height_px / 2);
   ExplainedDepth result{.depth = {.raw = cv::Mat1w::zeros(size), .unit_m = unit_m},
                         .no_return = cv::Mat1b::zeros(size)};
   for (int v = 0; v < size.height; ++v) {
-    const std::vector<BlockEvidence> row = blocks_.Row(light, v);
+    const std::vector<BlockEvidence> row = blocks_.Row(light, layout_.CentreOf({0, v}).y);
     for (int u = 0; u < size.width; ++u) {
       const cv::Point pixel(u, v);
-      // Blocks leave the image where those of the whole infra-red image do.
-      const bool is_inside = Covers(size, blocks_.reach_u(), blocks_.reach_v(), u, v, 1.0) &&
-                             Covers(size, reach.width, reach.height, u, v, scale_);
+      const cv::Point centre = layout_.CentreOf(pixel);
       NoReturn reason = NoReturn::kNone;
       double z_m = 0.0;
-      if (!is_inside) {
+      if (!layout_.HasBlock(pixel, depth_camera_)) {
         reason = NoReturn::kBorder;
       } else {
-        const float disparity_px =
-            Read(light, row[static_cast<size_t>(u - blocks_.reach_u())], pixel,
-                 {.evidence = evidence(pixel),
-                  .rival = rival(pixel),
-                  .chance = chance(pixel),
-                  .fixed = fixed(pixel),
-                  .flicker = flicker(pixel),
-                  .temporal = temporal(pixel)});
+        const float disparity_px = Read(light, row[static_cast<size_t>(u)], centre,
+                                        {.evidence = evidence(pixel),
+                                         .rival = rival(pixel),
+                                         .chance = chance(pixel),
+                                         .fixed = fixed(pixel),
+                                         .flicker = flicker(pixel),
+                                         .temporal = temporal(pixel)});
         if (std::isfinite(disparity_px)) {
-          z_m = range_.Depth(static_cast<double>(disparity_px));
+          z_m = range_.Depth(static_cast<double>(error_.Of(disparity_px, pixel)));
           if (z_m == 0.0) reason = NoReturn::kRange;
         } else {
-          reason = missing.Reason(aovs, pixel);
+          reason = missing.Reason(aovs, centre);
         }
       }
       result.depth.raw(pixel) = static_cast<uint16_t>(std::lround(z_m / unit_m));

@@ -10,7 +10,9 @@
 #include "sim/structured_light/disparity.h"
 #include "sim/structured_light/explained_depth.h"
 #include "sim/structured_light/infrared_response.h"
+#include "sim/structured_light/infrared_view.h"
 #include "sim/structured_light/pattern_matching.h"
+#include "sim/structured_light/sensor_unit.h"
 
 namespace fenestra {
 
@@ -51,6 +53,11 @@ class ParametricDepth {
                   const PatternMatchingOptions& matching, const CameraModel& depth,
                   double baseline_m, const DisparityRange& range, const RollingShutter& shutter);
 
+  /// The same with another camera, and with a unit's error of disparities.
+  ParametricDepth WithUnit(const CameraModel& depth, const DisparityError& error) const;
+
+  const InfraredResponse& response() const { return response_; }
+
   /// `unit_m`: the unit of the depth image. `shot`: the stream of this view's fixed noise;
   /// `image_noise`: that of this image's own noise.
   ExplainedDepth Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
@@ -87,15 +94,17 @@ class ParametricDepth {
   float Measured(const Match& match, float noise) const;
   /// The best correlation of all wrong places if it is more than `enough`, or else -1.
   float BestByChance(const Match& match, float enough, const Noise& noise) const;
-  /// Error of the disparity [px at 640].
-  float DisparityError(const Match& match, float measured, const Noise& noise) const;
-  /// Disparity after noise [px at 640], or NaN.
-  float Read(const BlockLight& light, const BlockEvidence& block, cv::Point pixel,
+  /// Noise of the disparity [px at 640].
+  float DisparityNoise(const Match& match, float measured, const Noise& noise) const;
+  /// Disparity after noise [px at 640], or NaN. `centre`: of the block, in `light`.
+  float Read(const BlockLight& light, const BlockEvidence& block, cv::Point centre,
              const Noise& noise) const;
 
   ParametricDepthOptions noise_;
   PatternMatchingOptions matching_;
   DisparityRange range_;
+  RollingShutter shutter_;
+  InfraredImageLayout layout_;  ///< Of an infra-red image with the depth image's pixels.
   MovingRays rays_;
   InfraredResponse response_;
   float pattern_mean_;
@@ -107,6 +116,8 @@ class ParametricDepth {
   double search_px_;            ///< Disparities are searched up to this [px at 640].
   double scale_;                ///< Pixels of a 640-wide image per depth pixel.
   BlockGatherer blocks_;
+  DisparityError error_;
+  CameraModel depth_camera_;
 };
 
 }  // namespace fenestra

@@ -194,7 +194,7 @@ PatternMatches PatternMatcher::Match(const cv::Mat1w& image, int row_step) const
                     .before = memory[2],
                     .after = memory[3],
                     .last = memory[4]};
-    const bool is_wanted = v % row_step == 0;
+    const bool is_wanted = (v - reach_v) % row_step == 0;
     for (int k = 0; k <= steps; ++k) {
       const Phase& phase = phases_[k % 2];
       if (v > reach_v) {

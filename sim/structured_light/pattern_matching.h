@@ -57,8 +57,8 @@ class PatternMatcher {
   PatternMatcher(const PatternMatchingOptions& options, const SampledPattern& pattern,
                  cv::Size image, double least_px, double most_px);
 
-  /// Matches an image of 10 bits. Blocks that leave it are not matched. Of the rows, only every
-  /// `row_step`th is matched, beginning with the first.
+  /// Matches an image of 10 bits. Blocks that leave it are not matched. Of the rows of blocks, only
+  /// every `row_step`th is matched, beginning with the first.
   PatternMatches Match(const cv::Mat1w& image, int row_step = 1) const;
 
   /// Best scores of the pixels of a row while disparities are tried one after the other.

@@ -14,21 +14,17 @@ namespace {
 
 constexpr double kImageRate_hz = 30.0;
 
-CameraModel InfraredCamera(const StructuredLightOptions& o) {
-  return CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px);
-}
-
-Pose DepthToColor(const StructuredLightOptions& o) {
-  return Pose::Translation({-o.color_offset_m, 0.0, 0.0});
-}
-
-RgbdCalibration CalibrationOf(const StructuredLightOptions& o) {
-  const CameraModel color = DesignOf(o.color);
-  if (!o.registered_depth) {
-    return {.color = color, .depth = InfraredCamera(o), .X_KD = DepthToColor(o)};
-  }
+// The calibration of the images that are delivered.
+RgbdCalibration Delivered(const RgbdCalibration& cameras, const StructuredLightOptions& o) {
+  if (!o.registered_depth) return cameras;
   const double scale = static_cast<double>(o.depth_width_px) / o.color.width_px;
-  return {.color = color, .depth = color.Scaled(scale), .X_KD = Pose()};
+  return {.color = cameras.color, .depth = cameras.color.Scaled(scale), .X_KD = Pose()};
+}
+
+ColorCamera MakeColorCamera(const StructuredLightOptions& o, const RgbdCalibration& cameras,
+                            const RandomStream& pixels) {
+  return ColorCamera(o.color, cameras.color, cameras.X_KD.inverse(), o.motion,
+                     o.edge_samples_per_pixel, pixels);
 }
 
 // The largest disparity that is searched [px of the infra-red image].
@@ -53,6 +49,12 @@ MakeDepthModel(const StructuredLightOptions& o, const CameraModel& depth) {
 }
 
 }  // namespace
+
+RgbdCalibration DesignOf(const StructuredLightOptions& o) {
+  return {.color = DesignOf(o.color),
+          .depth = CameraModel::Pinhole(o.depth_width_px, o.depth_height_px, o.depth_focal_px),
+          .X_KD = Pose::Translation({-o.color_offset_m, 0.0, 0.0})};
+}
 
 DisparityRange RangeOf(const StructuredLightOptions& o) {
   DisparityRange range = DisparityRange::Of(o.depth_focal_px, o.depth_width_px,
@@ -87,6 +89,7 @@ void Validate(const StructuredLightOptions& o) {
                     "projector's baseline too long",
                     end_px, PatternMatcher::kMostDisparity_px));
   }
+  faults.RequireWithin("the delay of the colour image", o.color_delay_s, -1.0, 1.0);
   faults.ThrowIfAny();
   Validate(InfraredShutter(o));
   Validate(o.infrared);
@@ -97,18 +100,43 @@ void Validate(const StructuredLightOptions& o) {
 
 StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& options)
     : options_(Validated(options)),
-      nominal_(CalibrationOf(options)),
-      depth_model_(MakeDepthModel(options, InfraredCamera(options))),
-      color_(options.color, DepthToColor(options).inverse(), options.motion,
-             options.edge_samples_per_pixel),
-      depth_rays_(nominal_.depth) {
+      nominal_(Delivered(DesignOf(options), options)),
+      unit_{.cameras = DesignOf(options), .disparity = {}, .deviations = {}},
+      cameras_(nominal_),
+      depth_model_(MakeDepthModel(options, unit_.cameras.depth)),
+      color_(MakeColorCamera(options, unit_.cameras, RandomStream(0).Child("color_camera"))),
+      depth_rays_(cameras_.depth) {
   if (options.registered_depth) {
-    registrar_.emplace(InfraredCamera(options), DepthToColor(options), nominal_.depth);
+    const RgbdCalibration& known = unit_.cameras;
+    registrar_.emplace(known.depth, known.X_KD, nominal_.depth);
   }
 }
 
+StructuredLightSensor StructuredLightSensor::Unit(const UnitDeviations& deviations,
+                                                  const RandomStream& unit) const {
+  StructuredLightSensor built = *this;
+  if (deviations == UnitDeviations{}) return built;
+  built.unit_ = BuildUnit(DesignOf(options_), deviations, unit);
+  const RgbdCalibration& cameras = built.unit_.cameras;
+  built.cameras_ = Delivered(cameras, options_);
+  std::visit(
+      [&](auto& model) {
+        using Model = typename std::decay_t<decltype(model)>::element_type;
+        model = std::make_shared<Model>(model->WithUnit(cameras.depth, built.unit_.disparity));
+      },
+      built.depth_model_);
+  built.color_ = MakeColorCamera(options_, cameras, unit.Child("color_pixels"));
+  built.depth_rays_ = RayGrid(built.cameras_.depth);
+  return built;
+}
+
+const InfraredResponse& StructuredLightSensor::infrared_response() const {
+  return std::visit([](const auto& model) -> const InfraredResponse& { return model->response(); },
+                    depth_model_);
+}
+
 Pose StructuredLightSensor::X_WK(const Pose& X_WB) const {
-  return X_WB * DepthToColor(options_).inverse();
+  return X_WB * unit_.cameras.X_KD.inverse();
 }
 
 Pose StructuredLightSensor::X_WD(const Pose& X_WB) const {
@@ -117,7 +145,8 @@ Pose StructuredLightSensor::X_WD(const Pose& X_WB) const {
 
 RgbdObservation StructuredLightSensor::Observe(const RayCaster& caster, const Lighting& lighting,
                                                const Pose& X_WB, const RandomStream& shot) const {
-  return {.color = color_.Observe(caster, lighting, X_WB, shot),
+  return {.color = color_.Observe(caster, lighting,
+                                  PoseAt(X_WB, options_.motion, options_.color_delay_s), shot),
           .depth = ObserveDepth(caster, lighting, X_WB, shot).depth};
 }
 
@@ -166,8 +195,8 @@ ExplainedDepth StructuredLightSensor::OneImage(const RayCaster& caster, const Li
 }
 
 GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) const {
-  const std::array<PlacedCamera, 2> cameras = {PlacedCamera{nominal_.depth, X_WD(X_WB)},
-                                               PlacedCamera{nominal_.color, X_WK(X_WB)}};
+  const std::array<PlacedCamera, 2> cameras = {PlacedCamera{cameras_.depth, X_WD(X_WB)},
+                                               PlacedCamera{cameras_.color, X_WK(X_WB)}};
   return MakeGroundTruth(scene, X_WD(X_WB), cameras);
 }
 
@@ -185,7 +214,7 @@ TruthImages StructuredLightSensor::PixelTruth(const RayCaster& caster, const Lig
   cv::Mat2f disparity_px(aovs.depth_m.size());
   std::transform(aovs.depth_m.begin(), aovs.depth_m.end(), disparity_px.begin(),
                  [fb](float z_m) { return cv::Vec2f(fb / z_m, 0.0f * z_m); });
-  return {.camera = nominal_.depth,
+  return {.camera = cameras_.depth,
           .X_WC = X_WD(X_WB),
           .aovs = std::move(aovs),
           .band = render.band,

@@ -13,6 +13,7 @@
 #include "sim/structured_light/infrared_response.h"
 #include "sim/structured_light/matched_depth.h"
 #include "sim/structured_light/parametric_depth.h"
+#include "sim/structured_light/sensor_unit.h"
 #include "sim/truth/ground_truth.h"
 
 namespace fenestra {
@@ -60,6 +61,9 @@ struct StructuredLightOptions {
   bool registered_depth = false;
 
   ColorCameraOptions color;
+  /// From the middle of the depth image's exposure to that of the colour image's: the streams of
+  /// 30 Hz are not synchronised. Assumed; up to half a period.
+  double color_delay_s = 8e-3;
   int edge_samples_per_pixel = 64;
 };
 
@@ -69,14 +73,29 @@ void Validate(const StructuredLightOptions& options);
 /// The disparities that a sensor delivers.
 DisparityRange RangeOf(const StructuredLightOptions& options);
 
+/// The cameras as designed, the depth camera being the infra-red camera.
+RgbdCalibration DesignOf(const StructuredLightOptions& options);
+
 /// A structured-light sensor. Frame B is the infra-red camera, whose pixels the depth image has
 /// unless it is registered.
 class StructuredLightSensor {
  public:
+  /// As designed.
   explicit StructuredLightSensor(const StructuredLightOptions& options);
 
+  /// A sensor of this design as built. What is known of it, nominal(), stays the same; the colour
+  /// camera's pixels differ, too.
+  StructuredLightSensor Unit(const UnitDeviations& deviations, const RandomStream& unit) const;
+
   const StructuredLightOptions& options() const { return options_; }
+  /// What is known of the sensor: the design. If depth is registered, the depth camera is the
+  /// colour camera, with the depth image's pixels.
   const RgbdCalibration& nominal() const { return nominal_; }
+  /// The same as it truly is. The driver registers depth by what is known: its pixels are not quite
+  /// where this says.
+  const RgbdCalibration& cameras() const { return cameras_; }
+  const SensorUnit& unit() const { return unit_; }
+  const InfraredResponse& infrared_response() const;
 
   /// Poses of the camera of the depth image's pixels, and of the colour camera.
   Pose X_WD(const Pose& X_WB) const;
@@ -101,6 +120,8 @@ class StructuredLightSensor {
 
   StructuredLightOptions options_;
   RgbdCalibration nominal_;
+  SensorUnit unit_;
+  RgbdCalibration cameras_;
   std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const MatchedDepth>>
       depth_model_;
   ColorCamera color_;

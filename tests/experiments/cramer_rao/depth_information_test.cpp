@@ -19,10 +19,12 @@ constexpr double kBorder_m = 0.1;
 // A wall of which everything returns dots, and a frame on it.
 class WallBefore {
  public:
-  explicit WallBefore(double distance_m, double frame_reflectance_830nm = 0.8)
+  explicit WallBefore(double distance_m, double frame_reflectance_830nm = 0.8,
+                      const UnitDeviations& deviations = {}, uint64_t unit = 0)
       : scene_(MakePaperTarget({.frame_reflectance_830nm = frame_reflectance_830nm})),
         caster_(scene_),
-        sensor_(StructuredLightOptions{}),
+        sensor_(
+            StructuredLightSensor(StructuredLightOptions{}).Unit(deviations, RandomStream(unit))),
         theory_(sensor_),
         X_WB_(RigPose({.distance_m = distance_m, .azimuth_rad = 8.0 * kDegree}, Pose())),
         frame_(FrameState::Of(*sensor_.Truth(scene_, X_WB_).target, kBorder_m)) {
@@ -40,9 +42,7 @@ class WallBefore {
     return theory_.Information(frame_, 0.0, seen, caster_, lighting_, X_WB_);
   }
   Eigen::MatrixXd Information(const RgbdObservation& seen) const {
-    return RgbdInformation(frame_, sensor_.nominal(), sensor_.options().color, seen.color,
-                           Information(seen.depth))
-        .value();
+    return RgbdInformation(frame_, sensor_, seen.color, Information(seen.depth)).value();
   }
   double focal_times_baseline() const { return 285.63 * 2.0 * 0.075; }
   const CameraModel& camera() const { return sensor_.nominal().depth; }
@@ -78,14 +78,18 @@ double PlaneError(const WallBefore& wall, const DepthImage& seen) {
   return (z_m / p_CO.z() - 1.0) * n.dot(p_CO);
 }
 
-// The bound on that, the plane's tilt being unknown.
-double PlaneBound_m2(const WallBefore& wall, const DepthMatrix& information) {
+// The bound on that, the plane's tilt being unknown. `unit`: covariance of the sensor's parameters.
+double PlaneBound_m2(const WallBefore& wall, const DepthMatrix& information,
+                     const Eigen::MatrixXd& unit = Eigen::MatrixXd::Zero(kUnitParameters,
+                                                                         kUnitParameters)) {
   const Eigen::Matrix3d R = wall.frame().X_CO.rotation();
-  Eigen::Matrix<double, kDepthUnknowns, 3> by_plane;
-  by_plane.setZero();
-  by_plane.block<3, 1>(0, 0) = R.col(2);
-  by_plane.block<3, 2>(3, 1) = R.leftCols<2>();
-  return (by_plane.transpose() * information * by_plane).inverse()(0, 0);
+  const Eigen::MatrixXd known = WithNuisance(information, kUnitUnknown, unit);
+  const Eigen::Index nuisance = known.rows() - kUnitUnknown;
+  Eigen::MatrixXd by_unknown = Eigen::MatrixXd::Zero(known.rows(), 3 + nuisance);
+  by_unknown.block<3, 1>(0, 0) = R.col(2);
+  by_unknown.block<3, 2>(3, 1) = R.leftCols<2>();
+  by_unknown.bottomRightCorner(nuisance, nuisance).setIdentity();
+  return (by_unknown.transpose() * known * by_unknown).inverse()(0, 0);
 }
 
 // Whether errors are as large as this variance at least: their normalised sum is χ², and less than
@@ -108,6 +112,46 @@ TEST(DepthInformationTest, PlanesFittedToTheSensorsDepthDoNotBeatTheBoundAndCome
     // The twin with a fault: a bound of ten times the variance.
     EXPECT_FALSE(ReachesBound(0.1 * sum, kShots)) << sum / kShots << " at " << distance_m << " m";
   }
+}
+
+TEST(DepthInformationTest, UnitsOfASensorDoNotBeatTheBoundThatKnowsTheirDeviations) {
+  constexpr int kUnits = 30;
+  const UnitDeviations deviations = UnitDeviations::Calibrated();
+  const Eigen::MatrixXd covariance = UnitCovariance(DesignOf(StructuredLightOptions{}), deviations);
+  double sum = 0.0;
+  double sum_without = 0.0;
+  for (uint64_t unit = 0; unit < kUnits; ++unit) {
+    const WallBefore wall(2.0, 0.8, deviations, unit);
+    const DepthImage seen = wall.Depth(unit);
+    const DepthMatrix information = wall.Information(seen);
+    const double error_m = PlaneError(wall, seen);
+    sum += error_m * error_m / PlaneBound_m2(wall, information, covariance);
+    sum_without += error_m * error_m / PlaneBound_m2(wall, information);
+  }
+  // A plane fitted without regard to the warp is near the best that can be done. Twice the
+  // variance is far outside the 99.9 % interval of χ².
+  EXPECT_TRUE(ReachesBound(sum, kUnits)) << sum / kUnits;
+  EXPECT_LT(sum, 2.0 * kUnits);
+  // The twin with a fault: a bound for which the sensor is known exactly is beaten a hundredfold.
+  EXPECT_GT(sum_without, 100.0 * kUnits);
+}
+
+TEST(DepthInformationTest, AnOffsetOfDisparitiesAddsItsShareOfDepth) {
+  const WallBefore wall(2.0);
+  const DepthMatrix information = wall.Information(wall.Depth(0));
+  const auto added_m2 = [&](const UnitDeviations& deviations) {
+    return PlaneBound_m2(wall, information,
+                         UnitCovariance(DesignOf(StructuredLightOptions{}), deviations)) -
+           PlaneBound_m2(wall, information);
+  };
+  // δz = z²/(f b) δd, along the normal, which is 8° from the line of sight.
+  const double z_m = wall.frame().X_CO.translation().z();
+  const double by_offset_m = z_m * z_m / wall.focal_times_baseline() * std::cos(8.0 * kDegree);
+  const double offset = added_m2({.disparity_offset_px = 0.1});
+  EXPECT_NEAR(offset / std::pow(0.1 * by_offset_m, 2), 1.0, 0.02);
+  // δz = z s.
+  const double scale = added_m2({.disparity_scale = 0.01});
+  EXPECT_NEAR(scale / std::pow(0.01 * z_m * std::cos(8.0 * kDegree), 2), 1.0, 0.02);
 }
 
 TEST(DepthInformationTest, FallsWithDistanceAndWithWhatReturns) {

@@ -43,7 +43,7 @@ TEST(ColorCameraTest, FewerRaysChangeLessThanAThirdOfTheNoise) {
     options.auto_exposure = false;
     options.exposure_s = 1e-4;
     options.sensor.noise = noise;
-    const ColorCamera camera(options, Pose(), {}, edge_samples);
+    const ColorCamera camera(options, DesignOf(options), Pose(), {}, edge_samples, RandomStream(0));
     cv::Mat3f image;
     camera
         .Observe(caster, Daylight(), RigPose({.distance_m = 2.0, .azimuth_rad = 0.2}, Pose()),
@@ -70,7 +70,7 @@ TEST(ColorCameraTest, ColoursThatAreBlurredAlikeAreGatheredAlike) {
     ColorCameraOptions options;
     options.red_blur = red_blur;
     options.sensor.noise = false;
-    return ColorCamera(options, Pose(), {}, 64)
+    return ColorCamera(options, DesignOf(options), Pose(), {}, 64, RandomStream(0))
         .Observe(caster, Daylight(), RigPose({.distance_m = 2.0}, Pose()), RandomStream(1));
   };
   const cv::Mat3b plain = see(1.0);

@@ -192,10 +192,12 @@ TEST(RollingShutterTest, TheColourImageIsSlantedByItsRowsAndBlurredByTheirExposu
   const RayCaster caster(scene);
   Lighting lighting;
   lighting.sky.illuminance_lx = 300.0;
-  const auto see = [&](double speed_m_s, double readout_s) {
+  const auto see = [&](double speed_m_s, double readout_s, double delay_s = 0.0) {
     StructuredLightOptions options;
     options.motion.velocity_B.x() = speed_m_s;
     options.color_offset_m = 0.0;
+    options.color_delay_s = delay_s;
+    options.color.distortion = {};
     options.color.readout_s = readout_s;
     options.color.auto_exposure = false;
     options.color.exposure_s = kExposure_s;
@@ -215,6 +217,10 @@ TEST(RollingShutterTest, TheColourImageIsSlantedByItsRowsAndBlurredByTheirExposu
   EXPECT_NEAR(std::sqrt(12.0 * (moving.variance_px2 - still.variance_px2)),
               f_px * kSpeed * kExposure_s, 0.3);
   EXPECT_NEAR(moving.mean_px, still.mean_px, 0.1);
+  constexpr double kDelay_s = 8e-3;
+  const double late_px = border_px - f_px * kSpeed * kDelay_s;
+  EXPECT_NEAR(BorderOf(see(kSpeed, 0.0, kDelay_s), 240, late_px).mean_px - still.mean_px,
+              -f_px * kSpeed * kDelay_s, 0.1);
   const cv::Mat3b rolling = see(kSpeed, kReadout_s);
   for (const int row : {20, 240, 460}) {
     const double t_s = RowTime(Sideways(kSpeed, kReadout_s), 480, row);

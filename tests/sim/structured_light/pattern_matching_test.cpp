@@ -165,11 +165,11 @@ TEST(PatternMatching, OnlyTheRowsAskedForAreMatchedAndAlike) {
   const PatternMatcher matcher = Matcher();
   const cv::Mat1w image = ImageOf(31.3, {.noise_dn = 10.0});
   const PatternMatches all = matcher.Match(image);
-  const PatternMatches some = matcher.Match(image, 4);
+  const PatternMatches some = matcher.Match(image, 3);
   for (int v = 0; v < kSize.height; ++v) {
     for (int u = 0; u < kSize.width; ++u) {
       const float found = some.disparity_px(v, u);
-      if (v % 4 != 0) {
+      if ((v - 4) % 3 != 0) {
         EXPECT_TRUE(std::isnan(found)) << u << ", " << v;
       } else if (!std::isnan(found) || !std::isnan(all.disparity_px(v, u))) {
         EXPECT_EQ(found, all.disparity_px(v, u)) << u << ", " << v;

@@ -68,24 +68,55 @@ std::optional<cv::Mat1d> BlockResiduals(const DepthView& view, const cv::Rect& b
   return residuals;
 }
 
-double Correlation(const std::vector<cv::Mat1d>& blocks, cv::Point lag) {
-  double products = 0.0, squares = 0.0;
-  int pairs = 0, values = 0;
-  for (const cv::Mat1d& block : blocks) {
-    for (int v = 0; v < block.rows; ++v) {
-      for (int u = 0; u < block.cols; ++u) {
-        if (std::isnan(block(v, u))) continue;
-        squares += block(v, u) * block(v, u);
-        ++values;
-        if (v + lag.y >= block.rows || u + lag.x >= block.cols) continue;
-        const double other = block(v + lag.y, u + lag.x);
-        if (std::isnan(other)) continue;
-        products += block(v, u) * other;
-        ++pairs;
-      }
+// Sums of a block's residuals.
+struct BlockSums {
+  double products = 0.0;  // Of pixels a lag apart.
+  int pairs = 0;
+  double squares = 0.0;
+  int values = 0;
+
+  BlockSums& operator+=(const BlockSums& other) {
+    products += other.products;
+    pairs += other.pairs;
+    squares += other.squares;
+    values += other.values;
+    return *this;
+  }
+  BlockSums Without(const BlockSums& other) const {
+    return {products - other.products, pairs - other.pairs, squares - other.squares,
+            values - other.values};
+  }
+  double Correlation() const { return (products / pairs) / (squares / values); }
+};
+
+BlockSums SumsOf(const cv::Mat1d& block, cv::Point lag) {
+  BlockSums sums;
+  for (int v = 0; v < block.rows; ++v) {
+    for (int u = 0; u < block.cols; ++u) {
+      if (std::isnan(block(v, u))) continue;
+      sums.squares += block(v, u) * block(v, u);
+      ++sums.values;
+      if (v + lag.y >= block.rows || u + lag.x >= block.cols) continue;
+      const double other = block(v + lag.y, u + lag.x);
+      if (std::isnan(other)) continue;
+      sums.products += block(v, u) * other;
+      ++sums.pairs;
     }
   }
-  return (products / pairs) / (squares / values);
+  return sums;
+}
+
+Estimated CorrelationOf(const std::vector<cv::Mat1d>& blocks, cv::Point lag) {
+  std::vector<BlockSums> sums;
+  BlockSums all;
+  for (const cv::Mat1d& block : blocks) all += sums.emplace_back(SumsOf(block, lag));
+  // The jackknife: blocks are left out one by one.
+  const auto count = static_cast<double>(blocks.size());
+  double squares = 0.0;
+  for (const BlockSums& block : sums) {
+    squares += std::pow(all.Without(block).Correlation() - all.Correlation(), 2);
+  }
+  return {all.Correlation(), std::sqrt((count - 1.0) / count * squares)};
 }
 
 }  // namespace
@@ -207,10 +238,28 @@ PlaneFigures Measure(const DepthView& view, const cv::Mat1b& mask, const Eigen::
   std::nth_element(noise.begin(), noise.begin() + noise.size() / 2, noise.end());
   figures.noise_steps = noise[noise.size() / 2];
   for (int lag = 1; lag <= 3; ++lag) {
-    figures.along_rows[static_cast<size_t>(lag - 1)] = Correlation(blocks, {lag, 0});
-    figures.along_columns[static_cast<size_t>(lag - 1)] = Correlation(blocks, {0, lag});
+    figures.along_rows[static_cast<size_t>(lag - 1)] = CorrelationOf(blocks, {lag, 0});
+    figures.along_columns[static_cast<size_t>(lag - 1)] = CorrelationOf(blocks, {0, lag});
   }
   return figures;
+}
+
+double SmoothError(const DepthView& view, const cv::Mat1b& mask, double step) {
+  constexpr double kGross = 14e-3;  // [1/m]
+  const Eigen::Vector3d plane = FitPlane(view, mask);
+  double squares = 0.0;
+  int count = 0;
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      if (mask(v, u) == 0 || !(view.z_m(v, u) > 0.0)) continue;
+      const double off = plane.dot(view.RayOf(u, v)) - 1.0 / view.z_m(v, u);
+      if (std::abs(off) > kGross) continue;
+      squares += off * off;
+      ++count;
+    }
+  }
+  const double noise = Measure(view, mask, plane, step).noise_steps;
+  return std::sqrt(std::max(0.0, squares / count / (step * step) - noise * noise));
 }
 
 cv::Mat1b MaskIn(const RecordedPlane& recorded, const DepthView& view) {

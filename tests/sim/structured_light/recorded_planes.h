@@ -39,6 +39,12 @@ DepthView ViewOf(const RecordedPlane& recorded);
 /// p: 1/z = p · ray. By random samples of three pixels and least squares.
 Eigen::Vector3d FitPlane(const DepthView& view, const cv::Mat1b& mask);
 
+/// A figure with its standard error.
+struct Estimated {
+  double value = 0.0;
+  double error = 0.0;
+};
+
 /// What can be said of a plane's depth. Noise [steps]: RMS in blocks of 32 x 32 pixels around a
 /// plane of their own, the median over blocks; autocorrelation of its residuals at lags of 1 to 3
 /// pixels. Bins: 0.5 m of depth times 5° of incidence, by the plane.
@@ -51,11 +57,15 @@ struct PlaneFigures {
   std::map<std::pair<double, double>, Bin> bins;  ///< By least z [m] and least incidence [deg].
   int blocks = 0;
   double noise_steps = 0.0;
-  std::array<double, 3> along_rows{};
-  std::array<double, 3> along_columns{};
+  std::array<Estimated, 3> along_rows{};
+  std::array<Estimated, 3> along_columns{};
 };
 PlaneFigures Measure(const DepthView& view, const cv::Mat1b& mask, const Eigen::Vector3d& plane,
                      double step);
+
+/// RMS of 1/z around the plane that fits all pixels of a mask, less what blocks of 32 x 32 pixels
+/// have around planes of their own [steps]: smooth errors of depth, beside noise.
+double SmoothError(const DepthView& view, const cv::Mat1b& mask, double step);
 
 /// The recorded polygon in a view of another focal length.
 cv::Mat1b MaskIn(const RecordedPlane& recorded, const DepthView& view);

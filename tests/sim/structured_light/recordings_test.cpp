@@ -1,6 +1,9 @@
 // What the structured-light sensor delivers of planes that real sensors have recorded.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "sim/structured_light/structured_light_sensor.h"
 #include "tests/sim/structured_light/recorded_planes.h"
@@ -12,7 +15,8 @@ using testing::DepthView;
 using testing::PlaneFigures;
 using testing::RecordedPlane;
 
-constexpr int kLeastPixels = 500;  // Of a bin that is judged.
+constexpr double kStepOfOpenNi = 2.92e-3;  // 1/8 px over f b [1/m]: depth's step over z².
+constexpr int kLeastPixels = 500;          // Of a bin that is judged.
 
 // A large plane 1/z = p · ray before a camera at the origin that looks along +z.
 Scene SceneOf(const Eigen::Vector3d& plane, double reflectance_830nm) {
@@ -44,17 +48,21 @@ StructuredLightOptions OpenNi() {
   return options;
 }
 
-DepthView Simulated(const StructuredLightOptions& options, const Eigen::Vector3d& plane,
-                    double reflectance_830nm) {
-  const StructuredLightSensor sensor(options);
-  const RayCaster caster(SceneOf(plane, reflectance_830nm));
-  Lighting indoors;
-  indoors.sky.illuminance_lx = 300.0;
-  const DepthImage depth = sensor.ObserveDepth(caster, indoors, Pose(), RandomStream(1)).depth;
+DepthView ViewOf(const StructuredLightSensor& sensor, const RayCaster& caster,
+                 const Lighting& lighting) {
+  const DepthImage depth = sensor.ObserveDepth(caster, lighting, Pose(), RandomStream(1)).depth;
   const CameraParameters& k = sensor.nominal().depth.parameters();
   DepthView view{cv::Mat1d(), k.fx_px, {k.cx_px, k.cy_px}};
   depth.raw.convertTo(view.z_m, CV_64F, depth.unit_m);
   return view;
+}
+
+DepthView Simulated(const StructuredLightOptions& options, const Eigen::Vector3d& plane,
+                    double reflectance_830nm) {
+  Lighting indoors;
+  indoors.sky.illuminance_lx = 300.0;
+  return ViewOf(StructuredLightSensor(options), RayCaster(SceneOf(plane, reflectance_830nm)),
+                indoors);
 }
 
 // Recorded and simulated, alike.
@@ -72,9 +80,15 @@ Comparison Compare(const RecordedPlane& recorded,
   const cv::Mat1b mask = testing::MaskIn(recorded, real);
   const Eigen::Vector3d plane = testing::FitPlane(real, mask);
   const DepthView view = Simulated(options, plane, kReflectance);
-  constexpr double kStep = 2.92e-3;  // z²/(f b) in steps of 1/8 px.
   return {testing::Measure(real, mask, plane, recorded.step),
-          testing::Measure(view, testing::MaskIn(recorded, view), plane, kStep)};
+          testing::Measure(view, testing::MaskIn(recorded, view), plane, kStepOfOpenNi)};
+}
+
+// Within 0.1 beside what few blocks tell: 2.5 standard errors of their difference, of some 40
+// figures.
+void ExpectAlike(const testing::Estimated& simulated, const testing::Estimated& recorded) {
+  EXPECT_NEAR(simulated.value, recorded.value,
+              0.1 + 2.5 * std::hypot(simulated.error, recorded.error));
 }
 
 // Nothing of the noise was fitted to a recording: its size and its correlation follow from
@@ -88,8 +102,8 @@ TEST(RecordingsTest, NoiseOfPlanesAndItsCorrelationAreAsRecorded) {
     SCOPED_TRACE(recorded.name);
     EXPECT_NEAR(c.simulated.noise_steps / c.recorded.noise_steps, 1.0, 0.25);
     for (size_t lag = 0; lag < 3; ++lag) {
-      EXPECT_NEAR(c.simulated.along_rows[lag], c.recorded.along_rows[lag], 0.13) << lag + 1;
-      EXPECT_NEAR(c.simulated.along_columns[lag], c.recorded.along_columns[lag], 0.13) << lag + 1;
+      ExpectAlike(c.simulated.along_rows[lag], c.recorded.along_rows[lag]);
+      ExpectAlike(c.simulated.along_columns[lag], c.recorded.along_columns[lag]);
     }
   }
   EXPECT_GE(planes, 6);
@@ -126,6 +140,45 @@ TEST(RecordingsTest, AsManyPixelsReturnAsRecorded) {
     const Comparison c = Compare(recorded, noisy);
     EXPECT_LT(c.simulated.bins.at({4.0, 65.0}).Share(), 0.1);
   }
+}
+
+// The warp's size and scale were fitted to these planes, by two units at least.
+TEST(RecordingsTest, PlanesAreAsWarpedAsRecordedWithinAFactorOfTwo) {
+  constexpr int kUnits = 4;
+  const StructuredLightSensor design(OpenNi());
+  Lighting indoors;
+  indoors.sky.illuminance_lx = 300.0;
+  double log_ratios = 0.0;
+  double log_ratios_without = 0.0;
+  int planes = 0;
+  for (const RecordedPlane& recorded : testing::RecordedPlanes()) {
+    const DepthView real = testing::ViewOf(recorded);
+    const cv::Mat1b mask = testing::MaskIn(recorded, real);
+    const Eigen::Vector3d plane = testing::FitPlane(real, mask);
+    if (testing::Measure(real, mask, plane, recorded.step).blocks < 8) continue;
+    const double recorded_steps = testing::SmoothError(real, mask, recorded.step);
+    const RayCaster caster(SceneOf(plane, kReflectance));
+    const auto simulated_steps = [&](double warp_px) {
+      double squares = 0.0;
+      for (uint64_t unit = 0; unit < kUnits; ++unit) {
+        const DepthView view = ViewOf(
+            design.Unit({.disparity_warp_px = warp_px}, RandomStream(unit)), caster, indoors);
+        squares +=
+            std::pow(testing::SmoothError(view, testing::MaskIn(recorded, view), kStepOfOpenNi), 2);
+      }
+      return std::sqrt(squares / kUnits);
+    };
+    const double found = simulated_steps(UnitDeviations::Calibrated().disparity_warp_px);
+    RecordProperty(recorded.name, fmt::format("{:.2f} recorded, {:.2f}", recorded_steps, found));
+    EXPECT_NEAR(std::log2(found / recorded_steps), 0.0, 1.2) << recorded.name;
+    log_ratios += std::log2(found / recorded_steps);
+    log_ratios_without += std::log2(std::max(0.01, simulated_steps(0.0)) / recorded_steps);
+    ++planes;
+  }
+  EXPECT_GE(planes, 5);
+  EXPECT_NEAR(log_ratios / planes, 0.0, 0.5);
+  // The twin: a unit without a warp.
+  EXPECT_LT(log_ratios_without / planes, -1.0);
 }
 
 }  // namespace
