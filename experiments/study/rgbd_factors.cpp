@@ -107,6 +107,10 @@ void AddRgbdColor(FactorTable& t) {
       .Number("rgbd_color_corner_illumination", FIELD(rgbd.color.lens.corner_illumination),
               {0.05, 1.0},
               "Share of the light that reaches the corners, besides natural vignetting.")
+      .Number(
+          "rgbd_color_veiling_glare_percent", FIELD(rgbd.color.lens.veiling_glare),
+          {0.0, 50.0, kPercent},
+          "Veiling glare index: light in the image of a small black patch, of the bright field's.")
       .Number("rgbd_color_electrons_per_lux_s", FIELD(rgbd.color.electrons_per_lux_s), {1.0, 1e8},
               "Electrons that a pixel collects per lux second.")
       .Number("rgbd_color_saturation_e", FIELD(rgbd.color.sensor.saturation_e), {10.0, 1e7},

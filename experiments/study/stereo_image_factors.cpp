@@ -17,6 +17,9 @@ void AddStereoImages(FactorTable& t) {
               "least that on the axis.")
       .Number("stereo_corner_illumination", FIELD(stereo.lens.corner_illumination), {0.05, 1.0},
               "Share of the light that reaches the corners, besides natural vignetting.")
+      .Number(
+          "stereo_veiling_glare_percent", FIELD(stereo.lens.veiling_glare), {0.0, 50.0, kPercent},
+          "Veiling glare index: light in the image of a small black patch, of the bright field's.")
       .Choice(
           "stereo_illuminant", FIELD(stereo.spectrum.illuminant), {"daylight", "incandescent"},
           "Spectrum of the light, for the sensor's response; illuminances in lux stay the same.")

@@ -123,7 +123,8 @@ std::array<cv::Mat1f, 3> ColorCamera::ElectronsPerSecond(const QuarterImages& lu
   for (size_t i = 0; i < channels.size(); ++i) {
     cv::extractChannel(blur[i] == 1.0 ? green : gathered(blur[i]), channels[i],
                        static_cast<int>(i));
-    channels[i] = channels[i].mul(illumination_, electrons_per_s);
+    channels[i] = WithVeilingGlare(channels[i].mul(illumination_, electrons_per_s),
+                                   options_.lens.veiling_glare);
   }
   return channels;
 }

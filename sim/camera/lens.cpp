@@ -205,6 +205,14 @@ cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens) {
   return relative;
 }
 
+cv::Mat WithVeilingGlare(const cv::Mat& image, double glare) {
+  FENESTRA_CHECK(glare >= 0.0 && glare <= 1.0, "veiling glare is a share of the light");
+  cv::Mat veiled;
+  image.convertTo(veiled, -1, 1.0 - glare);
+  veiled += cv::mean(image) * glare;
+  return veiled;
+}
+
 cv::Mat Gather(const QuarterImages& quarters, const PointSpread& spread) {
   FENESTRA_CHECK(spread.corner_sigma_px >= spread.centre_sigma_px,
                  "an image is blurred least in its centre");

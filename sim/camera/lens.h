@@ -18,6 +18,9 @@ struct LensOptions {
   double corner_blur_sigma_px = 0.60;
   /// Share of the light that reaches the corners through the lens' barrel, besides cos⁴.
   double corner_illumination = 0.9;
+  /// Veiling glare index after ISO 9358: illuminance of a small black patch's image over that of
+  /// the bright field around it. Assumed: 2–5 % are usual for small lenses before a bare sensor.
+  double veiling_glare = 0.03;
 };
 
 /// A Gaussian point spread whose variance grows with the square of the distance from the image's
@@ -33,6 +36,11 @@ double IlluminancePerLuminance(const LensOptions& lens);
 /// Illumination at the centre of each pixel relative to the axis: natural vignetting, cos⁴ of the
 /// ray's angle to the optical axis, times the barrel's, 1 - (1 - corner_illumination) ρ².
 cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens);
+
+/// The image E with the light that lens and housing scatter, which is taken to be uniform over the
+/// image:  (1 - g) E + g mean(E),  in each channel. What the lens does not see is taken to be as
+/// bright as what it sees. Domain: 0 ≤ g ≤ 1; float images.
+cv::Mat WithVeilingGlare(const cv::Mat& image, double glare);
 
 /// The image that pixels integrate behind a lens: the mean over each pixel's area of the image
 /// convolved with a point spread. The light must be known by quarters of pixels: blurring whole

@@ -217,9 +217,10 @@ cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const QuarterImage
   const double electrons_per_luminance =
       ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
       IlluminancePerLuminance(options_.lens);
-  return Gather(light, {.centre_sigma_px = options_.lens.blur_sigma_px,
-                        .corner_sigma_px = options_.lens.corner_blur_sigma_px})
-      .mul(camera.illumination, electrons_per_luminance);
+  const cv::Mat gathered = Gather(light, {.centre_sigma_px = options_.lens.blur_sigma_px,
+                                          .corner_sigma_px = options_.lens.corner_blur_sigma_px});
+  return WithVeilingGlare(gathered.mul(camera.illumination, electrons_per_luminance),
+                          options_.lens.veiling_glare);
 }
 
 ExposureSetting StereoRig::ExposureFor(const cv::Mat1f& left_electrons_per_s) const {

@@ -129,5 +129,26 @@ TEST(LensTest, TheBarrelTakesItsShareInTheCorners) {
   EXPECT_NEAR(barrel(0, 0) / open(0, 0), 0.8, 0.003);
 }
 
+TEST(LensTest, ASmallBlackPatchGetsTheVeilingGlareIndexsShareOfTheField) {
+  // ISO 9358's own measurement: a black patch, here 1 % of the picture, in a bright field.
+  constexpr double kGlare = 0.04;
+  cv::Mat1f field(100, 200, 50.0f);
+  field(cv::Rect(90, 40, 20, 10)) = 0.0f;
+  const cv::Mat1f veiled = WithVeilingGlare(field, kGlare);
+  EXPECT_NEAR(veiled(45, 100) / 50.0, 0.99 * kGlare, 1e-6);
+  // No light is lost or won: what is scattered is missing elsewhere.
+  EXPECT_NEAR(cv::mean(veiled)[0], cv::mean(field)[0], 1e-4);
+  // A uniform field hides the glare.
+  const cv::Mat1f uniform(100, 200, 50.0f);
+  EXPECT_LT(cv::norm(WithVeilingGlare(uniform, kGlare), uniform, cv::NORM_INF), 1e-4);
+}
+
+TEST(LensTest, EachColourIsVeiledByItsOwnMean) {
+  cv::Mat3f image(10, 20, cv::Vec3f(0.0f, 0.0f, 0.0f));
+  image.colRange(0, 10) = cv::Scalar(10.0, 20.0, 40.0);
+  const cv::Mat3f veiled = WithVeilingGlare(image, 0.1);
+  EXPECT_LT(cv::norm(veiled(5, 15) - cv::Vec3f(0.5f, 1.0f, 2.0f)), 1e-5);
+}
+
 }  // namespace
 }  // namespace fenestra
