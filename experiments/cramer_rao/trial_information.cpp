@@ -47,17 +47,17 @@ std::optional<Eigen::MatrixXd> StereoInformation(const FrameState& frame,
   const StereoCalibration& cameras = pictures.cameras;
   const ElectronPicture left{.camera = cameras.left,
                              .X_VC = Pose(),
-                             .electrons = pictures.left_e,
-                             .noise = pictures.noise,
-                             .spread = pictures.spread,
+                             .electrons = pictures.left.electrons,
+                             .noise = pictures.left.noise,
+                             .spread = pictures.left.spread,
                              .blur_unknown = kPairBlurs,
                              .level_unknown = kPairLevels,
                              .camera_unknown = kPair};
   const ElectronPicture right{.camera = cameras.right,
                               .X_VC = cameras.X_RL,
-                              .electrons = pictures.right_e,
-                              .noise = pictures.noise,
-                              .spread = pictures.spread,
+                              .electrons = pictures.right.electrons,
+                              .noise = pictures.right.noise,
+                              .spread = pictures.right.spread,
                               .blur_unknown = kPairBlurs + 1,
                               .level_unknown = kPairLevels + kLevelsOfPicture,
                               .camera_unknown = kPair + kCameraParameters,
@@ -128,15 +128,16 @@ std::optional<TrialInformation> InformationOf(const StereoRig& rig, const Stereo
                                               const GroundTruth& truth, double border_m,
                                               const std::optional<Eigen::MatrixXd>& calibration) {
   if (!truth.target || !truth.in_view) return std::nullopt;
-  const StereoRigOptions& options = rig.options();
-  const auto fisher =
-      StereoInformation(FrameState::Of(*truth.target, border_m),
-                        {.cameras = rig.cameras(),
-                         .left_e = shot.left_e,
-                         .right_e = shot.right_e,
-                         .noise = PixelNoise::Linear(options.sensor, shot.exposure),
-                         .spread = {.centre_sigma_px = options.lens.blur_sigma_px,
-                                    .corner_sigma_px = options.lens.corner_blur_sigma_px}});
+  const LensOptions& lens = rig.options().lens;
+  const auto picture_of = [&](const ExposedView& view) {
+    return StereoPicture{.electrons = view.electrons,
+                         .noise = PixelNoise::Linear(view.sensor, view.exposure),
+                         .spread = {.centre_sigma_px = lens.blur_sigma_px,
+                                    .corner_sigma_px = lens.corner_blur_sigma_px}};
+  };
+  const auto fisher = StereoInformation(
+      FrameState::Of(*truth.target, border_m),
+      {.cameras = rig.cameras(), .left = picture_of(shot.left), .right = picture_of(shot.right)});
   if (!fisher) return std::nullopt;
   return TrialInformation{SensorKind::kStereo, *fisher, calibration};
 }

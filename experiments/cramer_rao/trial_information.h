@@ -17,13 +17,17 @@
 
 namespace fenestra {
 
-/// The pixels of a pair as they would be without noise, and their noise.
-struct StereoPictures {
-  StereoCalibration cameras;  ///< As they truly are.
-  cv::Mat1f left_e;           ///< Photo-electrons of the exposure.
-  cv::Mat1f right_e;
+/// The pixels of one picture as they would be without noise, and their noise.
+struct StereoPicture {
+  cv::Mat1f electrons;  ///< Photo-electrons of the exposure.
   PixelNoise noise;
   PointSpread spread;
+};
+
+struct StereoPictures {
+  StereoCalibration cameras;  ///< As they truly are.
+  StereoPicture left;
+  StereoPicture right;
 };
 
 /// Fisher information of a pair of pictures. Unknowns: those of the frame, in the left camera; the

@@ -50,6 +50,8 @@ void AddStereoRig(FactorTable& t) {
       .Number("stereo_translation_tolerance_mm", FIELD(stereo.tolerances.translation_m),
               {0.0, 50.0, kMilli},
               "Standard deviation of each camera's position as mounted, per axis.")
+      .Number("stereo_gain_tolerance_percent", FIELD(stereo.tolerances.gain), {0.0, 15.0, kPercent},
+              "Standard deviation of each camera's grey values per electron as built.")
       .Choice("stereo_calibration", FIELD(stereo_calibration.source),
               {"exact", "perturbed", "boards", "stale", "design"},
               "Calibration that detectors are given: as built, as built with a random error, from "

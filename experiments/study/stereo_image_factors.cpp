@@ -58,6 +58,9 @@ void AddStereoSensor(FactorTable& t) {
               "Whether the pixels are non-uniform.")
       .Switch("stereo_auto_exposure", FIELD(stereo.exposure.automatic),
               "Whether exposure time and gain are chosen by the image's mean.")
+      .Switch("stereo_own_exposure", FIELD(stereo.own_exposure),
+              "Whether each camera chooses its exposure by its own image; otherwise both have the "
+              "left one's.")
       .Number("stereo_exposure_set_point", FIELD(stereo.exposure.set_point), {0.01, 0.99},
               "Mean signal that automatic exposure aims at, as a fraction of full scale.")
       .Number("stereo_shortest_exposure_ms", FIELD(stereo.exposure.shortest_s), {1e-4, 1e4, kMilli},

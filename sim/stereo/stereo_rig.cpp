@@ -67,6 +67,30 @@ Pose Mounting(const StereoRigOptions& options, const RandomStream& camera) {
   return RandomPose(camera, tolerances.rotation_rad, tolerances.translation_m);
 }
 
+// Grey values per electron of a camera as built, as a multiple of the design's.
+double BuiltGain(const StereoRigOptions& options, const RandomStream& camera) {
+  return options.as_designed ? 1.0 : 1.0 + options.tolerances.gain * camera.Child("gain").Normal(0);
+}
+
+ImageSensorOptions WithGain(ImageSensorOptions sensor, double gain) {
+  sensor.saturation_e /= gain;
+  return sensor;
+}
+
+// The camera with pixels that are four times as large, fewer of them if need be.
+CameraModel MeteringCamera(const CameraModel& camera) {
+  constexpr int kLarger = 4;
+  CameraParameters k = camera.parameters();
+  k.width_px = std::max(k.width_px / kLarger, 1);
+  k.height_px = std::max(k.height_px / kLarger, 1);
+  k.fx_px /= kLarger;
+  k.fy_px /= kLarger;
+  // An integer coordinate is a pixel's centre.
+  k.cx_px = (k.cx_px + 0.5) / kLarger - 0.5;
+  k.cy_px = (k.cy_px + 0.5) / kLarger - 0.5;
+  return CameraModel(k);
+}
+
 // Positions of the left image's surface points in the right image, as differences of pixels.
 cv::Mat2f MatchesOf(const cv::Mat1f& depth_m, const StereoCalibration& cameras, const Pose& X_RL) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
@@ -117,7 +141,7 @@ void Validate(const StereoRigOptions& o) {
                              o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
   const RigTolerances& t = o.tolerances;
   faults.Require(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
-                     t.rotation_rad >= 0.0 && t.translation_m >= 0.0,
+                     t.rotation_rad >= 0.0 && t.translation_m >= 0.0 && t.gain >= 0.0,
                  "tolerances must not be negative");
   if (faults.count() == 0 && !DistortionIsInvertible(DesignedCamera(o))) {
     faults.Add("the distortion folds the image over before its corners");
@@ -137,10 +161,13 @@ StereoRig::Camera::Camera(const CameraModel& model, const StereoRigOptions& opti
     : stream(own),
       rays(model),
       illumination(RelativeIllumination(rays, options.lens)),
-      sensor(options.sensor, {model.width_px(), model.height_px()}, own) {}
+      metering_rays(MeteringCamera(model)),
+      metering_illumination(RelativeIllumination(metering_rays, options.lens)),
+      gain(BuiltGain(options, own)),
+      sensor(WithGain(options.sensor, gain), {model.width_px(), model.height_px()}, own) {}
 
 void StereoRig::Camera::SetSensor(const ImageSensorOptions& options) {
-  sensor = ImageSensor(options, sensor.size(), stream);
+  sensor = ImageSensor(WithGain(options, gain), sensor.size(), stream);
 }
 
 StereoRig::StereoRig(const StereoRigOptions& options, const RandomStream& rig)
@@ -214,38 +241,56 @@ QuarterImages StereoRig::Light(const Camera& camera, const Pose& X_BC, const Ray
 }
 
 cv::Mat1f StereoRig::ElectronsPerSecond(const Camera& camera, const QuarterImages& light) const {
-  const double electrons_per_luminance =
-      ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
-      IlluminancePerLuminance(options_.lens);
   const cv::Mat gathered = Gather(light, {.centre_sigma_px = options_.lens.blur_sigma_px,
                                           .corner_sigma_px = options_.lens.corner_blur_sigma_px});
-  return WithVeilingGlare(gathered.mul(camera.illumination, electrons_per_luminance),
+  return WithVeilingGlare(gathered.mul(camera.illumination, ElectronsPerLuminance()),
                           options_.lens.veiling_glare);
 }
 
-ExposureSetting StereoRig::ExposureFor(const cv::Mat1f& left_electrons_per_s) const {
-  return ChooseExposure(options_.exposure, options_.sensor, cv::mean(left_electrons_per_s)[0]);
+double StereoRig::ElectronsPerLuminance() const {
+  return ElectronsPerLuxSecond(options_.spectrum, options_.pixel_pitch_m) *
+         IlluminancePerLuminance(options_.lens);
 }
 
-StereoObservation StereoRig::Expose(const cv::Mat1f& left, const cv::Mat1f& right,
-                                    const ExposureSetting& exposure,
-                                    const RandomStream& shot) const {
-  const auto image_of = [&](const Camera& camera, const cv::Mat1f& electrons_per_s,
-                            const RandomStream& noise) {
-    const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, noise);
-    // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
-    cv::Mat1b image;
-    dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));
-    return image;
-  };
-  return {.left = image_of(*left_, left, shot.Child("left_noise")),
-          .right = image_of(*right_, right, shot.Child("right_noise"))};
+double StereoRig::MeanElectronsPerSecond(const Camera& camera, const Pose& X_WC,
+                                         const RayCaster& caster, const Lighting& lighting,
+                                         const RandomStream& sampling) const {
+  // Blur and veiling glare keep the mean.
+  const cv::Mat1f luminance = caster.Render(
+      camera.metering_rays, X_WC, lighting,
+      {.band = Band::kLuminance, .samples_per_pixel = 4, .edge_samples_per_pixel = 4}, sampling);
+  return ElectronsPerLuminance() * cv::mean(luminance.mul(camera.metering_illumination))[0];
+}
+
+ExposureSetting StereoRig::ExposureFor(const Camera& camera, double mean_electrons_per_s) const {
+  return ChooseExposure(options_.exposure, camera.sensor.options(), mean_electrons_per_s);
+}
+
+ExposedView StereoRig::Exposed(const Camera& camera, const cv::Mat1f& electrons_per_s,
+                               const ExposureSetting& exposure) {
+  return {.exposure = exposure,
+          .sensor = camera.sensor.options(),
+          .electrons = electrons_per_s * exposure.exposure_s};
+}
+
+cv::Mat1b StereoRig::ImageOf(const Camera& camera, const cv::Mat1f& electrons_per_s,
+                             const ExposureSetting& exposure, const RandomStream& noise) {
+  const cv::Mat1w dn = camera.sensor.Expose(electrons_per_s, exposure, noise);
+  // More bits than an image holds are for measuring the sensor; a detector sees the upper eight.
+  cv::Mat1b image;
+  dn.convertTo(image, CV_8U, std::min(1.0, 255.0 / camera.sensor.FullScaleDn()));
+  return image;
 }
 
 StereoObservation StereoRig::Develop(const QuarterImages& left, const QuarterImages& right,
                                      const RandomStream& shot) const {
   const cv::Mat1f left_e_s = ElectronsPerSecond(*left_, left);
-  return Expose(left_e_s, ElectronsPerSecond(*right_, right), ExposureFor(left_e_s), shot);
+  const cv::Mat1f right_e_s = ElectronsPerSecond(*right_, right);
+  const ExposureSetting of_left = ExposureFor(*left_, cv::mean(left_e_s)[0]);
+  const ExposureSetting of_right =
+      options_.own_exposure ? ExposureFor(*right_, cv::mean(right_e_s)[0]) : of_left;
+  return {.left = ImageOf(*left_, left_e_s, of_left, shot.Child("left_noise")),
+          .right = ImageOf(*right_, right_e_s, of_right, shot.Child("right_noise"))};
 }
 
 StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& lighting,
@@ -256,21 +301,27 @@ StereoObservation StereoRig::Observe(const RayCaster& caster, const Lighting& li
 StereoShot StereoRig::Shoot(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const RandomStream& shot) const {
   const RandomStream left_sampling = shot.Child("left_sampling");
-  const auto left_during = [&](double exposure_s) {
-    return ElectronsPerSecond(
-        *left_, Light(*left_, X_BL_, caster, lighting, X_WB, 0.0, exposure_s, left_sampling));
+  const RandomStream right_sampling = shot.Child("right_sampling");
+  const auto exposure_of = [&](const Camera& camera, const Pose& X_BC,
+                               const RandomStream& sampling) {
+    if (!options_.exposure.automatic) return ExposureFor(camera, 0.0);
+    return ExposureFor(camera, MeanElectronsPerSecond(camera, X_WB * X_BC, caster, lighting,
+                                                      sampling.Child("metering")));
   };
-  // The exposure is chosen by a picture without motion blur, which has the same mean.
-  cv::Mat1f left = left_during(0.0);
-  const ExposureSetting exposure = ExposureFor(left);
-  if (!options_.motion.still()) left = left_during(exposure.exposure_s);
-  const cv::Mat1f right = ElectronsPerSecond(
-      *right_, Light(*right_, X_BR(), caster, lighting, X_WB, options_.trigger_skew_s,
-                     exposure.exposure_s, shot.Child("right_sampling")));
-  return {.observation = Expose(left, right, exposure, shot),
-          .exposure = exposure,
-          .left_e = left * exposure.exposure_s,
-          .right_e = right * exposure.exposure_s};
+  const ExposureSetting of_left = exposure_of(*left_, X_BL_, left_sampling);
+  const ExposureSetting of_right =
+      options_.own_exposure ? exposure_of(*right_, X_BR(), right_sampling) : of_left;
+  const double right_middle_s =
+      options_.trigger_skew_s + 0.5 * (of_right.exposure_s - of_left.exposure_s);
+  const cv::Mat1f left = ElectronsPerSecond(
+      *left_, Light(*left_, X_BL_, caster, lighting, X_WB, 0.0, of_left.exposure_s, left_sampling));
+  const cv::Mat1f right =
+      ElectronsPerSecond(*right_, Light(*right_, X_BR(), caster, lighting, X_WB, right_middle_s,
+                                        of_right.exposure_s, right_sampling));
+  return {.observation = {.left = ImageOf(*left_, left, of_left, shot.Child("left_noise")),
+                          .right = ImageOf(*right_, right, of_right, shot.Child("right_noise"))},
+          .left = Exposed(*left_, left, of_left),
+          .right = Exposed(*right_, right, of_right)};
 }
 
 GroundTruth StereoRig::Truth(const Scene& scene, const Pose& X_WB) const {

@@ -22,6 +22,7 @@ struct RigTolerances {
   double distortion = 0.05;         ///< Relative, for each coefficient.
   double rotation_rad = 3e-3;       ///< About each axis.
   double translation_m = 5e-4;      ///< Along each axis.
+  double gain = 0.02;               ///< Relative, of grey values per electron.
 };
 
 /// A pair of IDS uEye UI-1226LE-M-G (MT9V032, 752 x 480, 6 µm) on a 35 cm bar, as designed.
@@ -38,6 +39,9 @@ struct StereoRigOptions {
   SpectralOptions spectrum;
   ImageSensorOptions sensor;
   ExposureOptions exposure;
+  /// Whether each camera chooses its exposure by its own image, as cameras without a common
+  /// controller do; otherwise both have that of the left one.
+  bool own_exposure = true;
   bool as_designed = false;  ///< Whether the rig has no deviations; tolerances have no effect then.
   RigTolerances tolerances;
   RigMotion motion;
@@ -53,20 +57,28 @@ void Validate(const StereoRigOptions& options);
 /// The rig as designed, before any tolerance.
 StereoCalibration DesignOf(const StereoRigOptions& options);
 
-/// A pair of images with their exposure and light.
+/// How one camera of a pair took its image.
+struct ExposedView {
+  ExposureSetting exposure;
+  ImageSensorOptions sensor;  ///< Of this camera, as built.
+  /// Mean photo-electrons of each pixel in the exposure, before fixed pattern and noise.
+  cv::Mat1f electrons;
+};
+
+/// A pair of images with their exposures and light.
 struct StereoShot {
   StereoObservation observation;
-  ExposureSetting exposure;
-  /// Mean photo-electrons of each pixel in the exposure, before fixed pattern and noise.
-  cv::Mat1f left_e;
-  cv::Mat1f right_e;
+  ExposedView left;
+  ExposedView right;
 };
 
 /// A rig as it was built: true cameras and poses, and each camera's fixed pattern.
 /// Frame B: origin midway between the cameras as designed, axes of the left camera as designed.
 ///
 /// Both shutters are global. Poses, and with them the ground truth, are those at the middle of the
-/// left camera's exposure. Both cameras have one exposure time and gain, chosen by the left image.
+/// left camera's exposure. The trigger begins both exposures, so that the middle of a longer one is
+/// later. Automatic exposure goes by the mean of a coarse picture without motion, as cameras go by
+/// the image before.
 class StereoRig {
  public:
   /// Draws the rig that belongs to the stream, within its tolerances. Throws InputError.
@@ -108,6 +120,9 @@ class StereoRig {
     RandomStream stream;
     RayGrid rays;
     cv::Mat1f illumination;
+    RayGrid metering_rays;  ///< Of pixels that are several times as large.
+    cv::Mat1f metering_illumination;
+    double gain;  ///< Grey values per electron, as a multiple of the design's.
     ImageSensor sensor;
   };
 
@@ -117,10 +132,17 @@ class StereoRig {
                       const RandomStream& sampling) const;
   /// Photo-electrons per pixel and second for this luminance.
   cv::Mat1f ElectronsPerSecond(const Camera& camera, const QuarterImages& light) const;
-  ExposureSetting ExposureFor(const cv::Mat1f& left_electrons_per_s) const;
-  /// Exposes both sensors to photo-electrons per pixel and second.
-  StereoObservation Expose(const cv::Mat1f& left, const cv::Mat1f& right,
-                           const ExposureSetting& exposure, const RandomStream& shot) const;
+  /// Photo-electrons per pixel and second on average, where the rig stands.
+  double MeanElectronsPerSecond(const Camera& camera, const Pose& X_WC, const RayCaster& caster,
+                                const Lighting& lighting, const RandomStream& sampling) const;
+  /// The exposure for an image with this mean of photo-electrons per pixel and second.
+  ExposureSetting ExposureFor(const Camera& camera, double mean_electrons_per_s) const;
+  double ElectronsPerLuminance() const;
+  /// A camera's view and its image of photo-electrons per pixel and second.
+  static ExposedView Exposed(const Camera& camera, const cv::Mat1f& electrons_per_s,
+                             const ExposureSetting& exposure);
+  static cv::Mat1b ImageOf(const Camera& camera, const cv::Mat1f& electrons_per_s,
+                           const ExposureSetting& exposure, const RandomStream& noise);
 
   StereoRigOptions options_;
   StereoCalibration cameras_;

@@ -74,13 +74,16 @@ FrameState StateOf(const ExactFrame& frame) {
 
 Eigen::MatrixXd InformationOf(const StereoCalibration& rig, const ExactFrame& frame,
                               const PixelNoise& noise) {
-  const StereoPictures pictures{
-      .cameras = rig,
-      .left_e = ExactPicture(rig.left, Pose(), frame),
-      .right_e = ExactPicture(rig.right, rig.X_RL, frame),
-      .noise = noise,
-      .spread = {.centre_sigma_px = frame.blur_px, .corner_sigma_px = frame.blur_px}};
-  return StereoInformation(StateOf(frame), pictures).value();
+  const auto picture = [&](const CameraModel& camera, const Pose& X_CL) {
+    return StereoPicture{
+        .electrons = ExactPicture(camera, X_CL, frame),
+        .noise = noise,
+        .spread = {.centre_sigma_px = frame.blur_px, .corner_sigma_px = frame.blur_px}};
+  };
+  return StereoInformation(StateOf(frame), {.cameras = rig,
+                                            .left = picture(rig.left, Pose()),
+                                            .right = picture(rig.right, rig.X_RL)})
+      .value();
 }
 
 Eigen::Matrix3d BoundOf(const ExactFrame& frame, const PixelNoise& noise,
@@ -214,7 +217,8 @@ TEST(StereoInformationTest, AFrameThatLeavesAnImageHasNoBound) {
   const cv::Mat1f white(240, 376, 100.0f);
   FrameState aside = StateOf(frame);
   aside.X_CO = Pose(aside.X_CO.rotation(), aside.X_CO.translation() + Eigen::Vector3d(1.5, 0, 0));
-  EXPECT_FALSE(StereoInformation(aside, {rig, white, white, FixedNoise(kNoise), {0.4, 0.4}}));
+  const StereoPicture picture_of_white{white, FixedNoise(kNoise), {0.4, 0.4}};
+  EXPECT_FALSE(StereoInformation(aside, {rig, picture_of_white, picture_of_white}));
 }
 
 }  // namespace

@@ -129,6 +129,87 @@ TEST(StereoRigTest, AutomaticExposureMakesBrightnessIrrelevant) {
   EXPECT_NEAR(mean(bright), 0.3 * 1023.0 / 4.0 - 0.375, 0.3);
 }
 
+// A target that fills more of one image than of the other.
+const Pose kBeside = RigPose({.distance_m = 1.2, .yaw_rad = 0.4}, Pose());
+
+// Share of full scale that a view's electrons are on average.
+double MeanShare(const ExposedView& view) {
+  return view.exposure.gain * cv::mean(view.electrons)[0] / view.sensor.saturation_e;
+}
+
+TEST(StereoRigTest, EachCameraIsExposedByItsOwnImage) {
+  StereoRigOptions options = Ideal();
+  options.as_designed = false;  // Cameras of different gain.
+  options.tolerances.gain = 0.1;
+  options.exposure.set_point = 0.3;
+  const RayCaster caster(MakePaperTarget({}));
+  const auto shot = [&](bool own_exposure) {
+    options.own_exposure = own_exposure;
+    return StereoRig(options, RandomStream(1)).Shoot(caster, {}, kBeside, RandomStream(2));
+  };
+  const StereoShot own = shot(true);
+  // The coarse picture that meters the light has its mean to a few tenths of a per cent.
+  EXPECT_NEAR(MeanShare(own.left), 0.3, 0.003);
+  EXPECT_NEAR(MeanShare(own.right), 0.3, 0.003);
+  const StereoShot shared = shot(false);
+  EXPECT_EQ(shared.right.exposure.exposure_s, own.left.exposure.exposure_s);
+  EXPECT_GT(std::abs(MeanShare(shared.right) - 0.3), 0.01);
+}
+
+TEST(StereoRigTest, GreyValuesPerElectronScatterByTheirTolerance) {
+  StereoRigOptions options;
+  options.width_px = 64;
+  options.height_px = 48;
+  options.focal_length_m = 1e-3;
+  options.exposure.automatic = false;
+  options.tolerances.gain = 0.03;
+  const RayCaster caster(MakePaperTarget({}));
+  constexpr int kRigs = 200;
+  double left2 = 0.0;
+  double product = 0.0;
+  for (uint64_t i = 0; i < kRigs; ++i) {
+    const StereoShot shot = StereoRig(options, RandomStream(3).Child("rig", i))
+                                .Shoot(caster, {}, kBeside, RandomStream(2));
+    const double left = options.sensor.saturation_e / shot.left.sensor.saturation_e - 1.0;
+    const double right = options.sensor.saturation_e / shot.right.sensor.saturation_e - 1.0;
+    left2 += left * left / kRigs;
+    product += left * right / kRigs;
+  }
+  EXPECT_NEAR(std::sqrt(left2) / 0.03, 1.0, 5.0 / std::sqrt(2.0 * kRigs));
+  EXPECT_NEAR(product / (0.03 * 0.03), 0.0, 5.0 / std::sqrt(kRigs));
+}
+
+TEST(StereoRigTest, TheMiddleOfALongerExposureIsLater) {
+  // Flying sideways at 10 m/s, with cameras whose gains and so exposures differ by some tenths.
+  // Both exposures begin together: the right one's middle is later by half the difference, which
+  // moves its image by f v Δt / 2z beside that of a rig whose cameras have one exposure.
+  StereoRigOptions options = Ideal();
+  options.as_designed = false;
+  options.tolerances = {.focal_length = 0.0,
+                        .principal_point_px = 0.0,
+                        .distortion = 0.0,
+                        .rotation_rad = 0.0,
+                        .translation_m = 0.0,
+                        .gain = 0.15};
+  options.motion.velocity_B = {10.0, 0.0, 0.0};
+  const RayCaster caster(MakePaperTarget({}));
+  Lighting bright;
+  bright.sky.illuminance_lx = 2000.0;
+  const Pose X_WB = RigPose({.distance_m = 4.0}, Pose());
+  const auto shot = [&](bool own_exposure) {
+    options.own_exposure = own_exposure;
+    return StereoRig(options, RandomStream(1)).Shoot(caster, bright, X_WB, RandomStream(2));
+  };
+  const StereoShot own = shot(true);
+  const StereoShot shared = shot(false);
+  const double later_s = 0.5 * (own.right.exposure.exposure_s - own.left.exposure.exposure_s);
+  const double expected_px = -DesignOf(options).left.parameters().fx_px * 10.0 * later_s / 4.0;
+  EXPECT_GT(std::abs(expected_px), 0.3);
+  EXPECT_NEAR(
+      FirstDarkEdge(own.observation.right, 240) - FirstDarkEdge(shared.observation.right, 240),
+      expected_px, 0.1);
+}
+
 TEST(StereoRigTest, TheRightCameraIsLateByItsSkew) {
   // Flying sideways at 2 m/s, 10 ms late: the right camera is 20 mm farther to the right, which
   // takes f · 0.02 m / z from the right image's columns. The left image does not change.
