@@ -17,15 +17,15 @@ double EncodedStep_e(double x, double full_scale_e) {
 
 PixelNoise PixelNoise::Linear(const ImageSensorOptions& o, const ExposureSetting& exposure) {
   const ImageSensor sensor(o, {1, 1}, RandomStream(0));
-  const double step_e = 1.0 / sensor.DnPerElectron(exposure.gain);
-  const double dark_e = sensor.DarkElectrons(exposure.exposure_s);
   PixelNoise noise;
-  noise.constant_e2_ = step_e * step_e / 12.0;
-  if (o.noise) noise.constant_e2_ += o.read_noise_e * o.read_noise_e + dark_e;
+  noise.step_e_ = 1.0 / sensor.DnPerElectron(exposure.gain);
+  noise.dark_e_ = sensor.DarkElectrons(exposure.exposure_s);
+  noise.shoulder_e_ = o.linear_range * o.saturation_e / exposure.gain;
+  if (o.noise) noise.constant_e2_ += o.read_noise_e * o.read_noise_e + noise.dark_e_;
   if (o.fixed_pattern) noise.constant_e2_ += o.dsnu_e * o.dsnu_e;
   noise.shot_ = o.noise ? 1.0 : 0.0;
   noise.prnu_ = o.fixed_pattern ? o.prnu : 0.0;
-  noise.full_scale_e_ = (sensor.FullScaleDn() - sensor.BlackLevelDn()) * step_e - dark_e;
+  noise.full_scale_e_ = sensor.FullScaleElectrons(exposure.gain) - noise.dark_e_;
   return noise;
 }
 
@@ -36,7 +36,10 @@ PixelNoise PixelNoise::Encoded(const ImageSensorOptions& options, const Exposure
 }
 
 double PixelNoise::Variance(double mean_e) const {
-  double variance = constant_e2_ + shot_ * mean_e + prnu_ * prnu_ * mean_e * mean_e;
+  // Beyond the shoulder the response's slope is √(shoulder/electrons).
+  const double wider = std::max(1.0, (mean_e + dark_e_) / shoulder_e_);
+  double variance = constant_e2_ + shot_ * mean_e + prnu_ * prnu_ * mean_e * mean_e +
+                    step_e_ * step_e_ * wider / 12.0;
   if (encoded_) {
     const double step_e =
         EncodedStep_e(std::clamp(mean_e / full_scale_e_, 0.0, 1.0), full_scale_e_);

@@ -10,11 +10,12 @@ namespace fenestra {
 ///
 ///     V(μ) = σ_d² + μ_I t + DSNU² + μ + (PRNU μ)² + q(μ)²/12   [e²],
 ///
-/// q: a step of the picture's values. Row noise is left out: all pixels of a row tell it. Steps
-/// count as noise of their own, which holds while the rest is above a third of a step.
+/// q: a step of the picture's values, which is wider where the sensor's response has a shoulder.
+/// Row noise is left out: all pixels of a row tell it. Steps count as noise of their own, which
+/// holds while the rest is above a third of a step.
 class PixelNoise {
  public:
-  /// Values in proportion to the light.
+  /// Values as the sensor gives them.
   static PixelNoise Linear(const ImageSensorOptions& options, const ExposureSetting& exposure);
   /// Values without black level, sRGB-encoded in 8 bits.
   static PixelNoise Encoded(const ImageSensorOptions& options, const ExposureSetting& exposure);
@@ -31,6 +32,9 @@ class PixelNoise {
 
  private:
   double constant_e2_ = 0.0;
+  double step_e_ = 0.0;  ///< Where the response is linear.
+  double dark_e_ = 0.0;
+  double shoulder_e_ = 0.0;  ///< Up to where it is, dark electrons included.
   double shot_ = 1.0;
   double prnu_ = 0.0;
   double full_scale_e_ = 0.0;

@@ -22,8 +22,8 @@ double Decibel(double ratio) {
 }
 
 std::vector<Figure> FiguresOf(const Results& r, const std::optional<PutIn>& put_in) {
-  const auto known = [&](double PutIn::*figure) {
-    return put_in ? std::optional(put_in.value().*figure) : std::nullopt;
+  const auto known = [&](auto PutIn::*figure) -> std::optional<double> {
+    return put_in ? std::optional<double>(put_in.value().*figure) : std::nullopt;
   };
   const auto percent = [](std::optional<double> fraction) {
     return fraction ? std::optional(100.0 * *fraction) : std::nullopt;

@@ -17,7 +17,8 @@ namespace {
 constexpr double kBeyondSaturation = 1.08;
 
 double PhotonsPerSecond(const SimulationOptions& o, const ImageSensorOptions& sensor) {
-  return kBeyondSaturation * sensor.saturation_e / o.gain / o.quantum_efficiency /
+  const ImageSensor instance(sensor, {1, 1}, RandomStream(0));
+  return kBeyondSaturation * instance.FullScaleElectrons(o.gain) / o.quantum_efficiency /
          o.longest_exposure_s;
 }
 
@@ -57,7 +58,8 @@ double MeanVariance(double electrons, const ImageSensorOptions& sensor, double l
   return sum / weights;
 }
 
-double SaturationCapacity(const ImageSensorOptions& sensor, double gain) {
+std::optional<double> SaturationCapacity(const ImageSensorOptions& sensor, double gain) {
+  if (sensor.linear_range < 1.0) return std::nullopt;
   const double full_e = sensor.saturation_e / gain;
   double best_e = 0.0;
   double largest = 0.0;

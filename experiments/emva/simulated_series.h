@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/io/output_path.h"
 #include "core/random/random_stream.h"
 #include "experiments/emva/evaluation.h"
@@ -38,7 +40,8 @@ struct PutIn {
   double dark_current_e_s;
   /// Where the temporal variance, averaged over the pixels, is largest: the standard's definition.
   /// It lies below full scale, since pixels of more sensitivity, and noise, are clipped before.
-  double saturation_e;
+  /// nullopt with a shoulder, on which the variance is flat: noise then says where it is largest.
+  std::optional<double> saturation_e;
   double dsnu_e;
   double prnu;
 };

@@ -31,7 +31,10 @@ void AddStereoImages(FactorTable& t) {
 
 void AddStereoSensor(FactorTable& t) {
   t.Number("stereo_saturation_e", FIELD(stereo.sensor.saturation_e), {10.0, 1e7},
-           "Electrons at full scale and a gain of 1.")
+           "Electrons that would fill the range at a gain of 1, were the response linear.")
+      .Number("stereo_linear_range_percent", FIELD(stereo.sensor.linear_range),
+              {1.0, 100.0, kPercent},
+              "Share of the range up to which the response is linear, with a shoulder beyond.")
       .Number("stereo_read_noise_e", FIELD(stereo.sensor.read_noise_e), {0.0, 1e4},
               "Standard deviation of a pixel's temporal noise in the dark.")
       .Number("stereo_dark_current_e_s", FIELD(stereo.sensor.dark_current_e_s), {0.0, 1e6},

@@ -32,13 +32,15 @@ struct ColorCameraOptions {
   double electrons_per_lux_s = 2.0e4;  ///< Response of one channel; assumed.
   /// Small pixels: 2.8 µm against the 6 µm of the machine-vision camera.
   ImageSensorOptions sensor{.saturation_e = 6000.0,
+                            .linear_range = 1.0,
                             .read_noise_e = 6.0,
                             .dark_current_e_s = 50.0,
                             .dsnu_e = 3.0,
                             .prnu = 0.01,
                             .row_noise_e = 0.0,
                             .adc_bits = 10,
-                            .output_bits = 10};
+                            .output_bits = 10,
+                            .black_level_dn = 32.0};
   /// Mean of the sRGB-encoded image that automatic exposure aims for, of 255.
   double mean_dn = 118.0;
   bool auto_exposure = true;

@@ -38,6 +38,7 @@ struct Readout {
   float read_variance_e2;
   float dn_per_e;
   float black_dn;
+  float shoulder_dn;  // Above black.
   float full_scale_dn;
 };
 
@@ -64,8 +65,12 @@ FENESTRA_WIDE void AddNoiseRow(const float* z, float read_variance_e2, float* me
 FENESTRA_WIDE void DigitiseRow(const float* electrons, const float* offset_e, float row_offset_e,
                                const Readout& readout, int shift, uint16_t* dn, int count) {
   for (int u = 0; u < count; ++u) {
-    const float value =
-        readout.black_dn + readout.dn_per_e * (electrons[u] + offset_e[u] + row_offset_e) + 0.5f;
+    const float linear = readout.dn_per_e * (electrons[u] + offset_e[u] + row_offset_e);
+    // Where the response is linear, the root is that of s² and the difference is 0.
+    const float beyond = std::sqrt(readout.shoulder_dn * std::max(linear, readout.shoulder_dn));
+    const float response =
+        std::min(linear, readout.shoulder_dn) + 2.0f * (beyond - readout.shoulder_dn);
+    const float value = readout.black_dn + response + 0.5f;
     const float clipped = std::min(std::max(value, 0.0f), readout.full_scale_dn);
     dn[u] = static_cast<uint16_t>(static_cast<int>(clipped) >> shift);
   }
@@ -77,6 +82,8 @@ void Validate(const ImageSensorOptions& o, const char* who) {
   Faults faults(who);
   faults.Require(o.saturation_e > 0.0,
                  fmt::format("saturation {} e is not positive", o.saturation_e));
+  faults.Require(o.linear_range > 0.0 && o.linear_range <= 1.0,
+                 fmt::format("a linear range of {} is not a share of full scale", o.linear_range));
   faults.Require(o.read_noise_e >= 0.0 && o.dark_current_e_s >= 0.0 && o.dsnu_e >= 0.0 &&
                      o.prnu >= 0.0 && o.row_noise_e >= 0.0,
                  "noise figures must not be negative");
@@ -117,6 +124,12 @@ double ImageSensor::DnPerElectron(double gain) const {
   return gain * dn_per_e * OutputScale(options_);
 }
 
+double ImageSensor::FullScaleElectrons(double gain) const {
+  // R(x) = 1 in units of the range.
+  const double s = options_.linear_range;
+  return (1.0 + s) * (1.0 + s) / (4.0 * s) * options_.saturation_e / gain;
+}
+
 double ImageSensor::BlackLevelDn() const {
   // Shifting right rounds downwards: half an output step less half an ADC step, on average.
   const double scale = OutputScale(options_);
@@ -138,6 +151,8 @@ cv::Mat1w ImageSensor::Expose(const cv::Mat1f& electrons_per_s, const ExposureSe
       .read_variance_e2 = static_cast<float>(options_.read_noise_e * options_.read_noise_e),
       .dn_per_e = static_cast<float>(DnPerElectron(exposure.gain) / OutputScale(options_)),
       .black_dn = static_cast<float>(options_.black_level_dn),
+      .shoulder_dn = static_cast<float>(options_.linear_range *
+                                        (AdcFullScale(options_) - options_.black_level_dn)),
       .full_scale_dn = static_cast<float>(AdcFullScale(options_))};
   const auto width = static_cast<size_t>(size_.width);
   const std::vector<float> ones(width, 1.0f);

@@ -22,8 +22,15 @@ SimulationOptions Small() {
   return {.size = {240, 200}, .exposures = 50, .frames = 30};
 }
 
-ImageSensorOptions TenBits() {
+// The standard's linear sensor: its saturation is where the variance is largest.
+ImageSensorOptions LinearSensor() {
   ImageSensorOptions sensor;
+  sensor.linear_range = 1.0;
+  return sensor;
+}
+
+ImageSensorOptions TenBits() {
+  ImageSensorOptions sensor = LinearSensor();
   sensor.output_bits = 10;
   return sensor;
 }
@@ -45,7 +52,7 @@ struct Measured {
   double DarkNoise() const { return results.dark_noise_e / put_in.dark_noise_e - 1.0; }
   double Dsnu() const { return results.dsnu_e.total / put_in.dsnu_e - 1.0; }
   double Prnu() const { return results.prnu.total / put_in.prnu - 1.0; }
-  double Saturation() const { return results.saturation_e / put_in.saturation_e - 1.0; }
+  double Saturation() const { return results.saturation_e / put_in.saturation_e.value() - 1.0; }
 };
 
 // Takes the series with `taken`, compares with `told`.
@@ -61,12 +68,16 @@ Measured Measure(const SimulationOptions& options, const ImageSensorOptions& tol
   return {Evaluate(series, images), PutInBy(options, told)};
 }
 
-void ExpectAllFigures(const Measured& m) {
+void ExpectAllFiguresButSaturation(const Measured& m) {
   EXPECT_NEAR(m.Gain(), 0.0, kGain);
   EXPECT_NEAR(m.Efficiency(), 0.0, kEfficiency);
   EXPECT_NEAR(m.DarkNoise(), 0.0, kDarkNoise);
   EXPECT_NEAR(m.Dsnu(), 0.0, kUniformity);
   EXPECT_NEAR(m.Prnu(), 0.0, kUniformity);
+}
+
+void ExpectAllFigures(const Measured& m) {
+  ExpectAllFiguresButSaturation(m);
   EXPECT_NEAR(m.Saturation(), 0.0, kSaturation);
 }
 
@@ -84,13 +95,25 @@ TEST(EmvaEvaluationTest, ReturnsWhatWasPutInAtTenBits) {
   EXPECT_NEAR(m.results.largest_snr, std::sqrt(m.results.saturation_e), 1e-9);
   const double threshold_e =
       std::hypot(m.put_in.dark_noise_e, std::sqrt(1.0 / 12.0) / m.put_in.gain_dn_per_e) + 0.5;
-  EXPECT_NEAR(m.results.dynamic_range * threshold_e / m.put_in.saturation_e, 1.0, 0.05);
+  EXPECT_NEAR(m.results.dynamic_range * threshold_e / m.put_in.saturation_e.value(), 1.0, 0.05);
 }
 
 TEST(EmvaEvaluationTest, ReturnsWhatWasPutInAtEightBitsAndFourfoldGain) {
   SimulationOptions options = Small();
   options.gain = 4.0;
-  ExpectAllFigures(Measure(options, {}, {}));
+  ExpectAllFigures(Measure(options, LinearSensor(), LinearSensor()));
+}
+
+TEST(EmvaEvaluationTest, AShoulderChangesNoFigureButSaturationAndLinearity) {
+  ImageSensorOptions sensor = TenBits();
+  sensor.linear_range = 0.65;
+  const Measured m = Measure(Small(), sensor, sensor);
+  ExpectAllFiguresButSaturation(m);
+  // The variance is flat from the shoulder's beginning to where pixels are clipped.
+  EXPECT_FALSE(m.put_in.saturation_e);
+  EXPECT_GT(m.results.saturation_e, 0.65 * 0.95 * sensor.saturation_e);
+  EXPECT_LT(m.results.saturation_e, 1.05 * sensor.saturation_e);
+  EXPECT_GT(m.results.linearity_error_max - m.results.linearity_error_min, 1e-3);
 }
 
 TEST(EmvaEvaluationTest, DarkCurrentDoublesWithTemperature) {
@@ -176,7 +199,7 @@ TEST(EmvaEvaluationTest, EarlySaturationIsFoundOut) {
 TEST(EmvaEvaluationTest, AtEightBitsAndGainOneTheStandardsFloorHidesTheDarkNoise) {
   // 0.24 DN² is the least that the standard lets dark variance be: 25.6 e at 64.6 e per DN. A
   // sensor of 12 e measures the same as one of 25 e does.
-  ImageSensorOptions quiet;
+  ImageSensorOptions quiet = LinearSensor();
   quiet.read_noise_e = 12.0;
   const Measured m = Measure(Small(), quiet, quiet);
   EXPECT_GT(m.DarkNoise(), kDarkNoise);

@@ -17,6 +17,7 @@ SimulationOptions ShortSeries() {
 
 ImageSensorOptions TenBitSensor() {
   ImageSensorOptions sensor;
+  sensor.linear_range = 1.0;
   sensor.output_bits = 10;
   return sensor;
 }
@@ -142,15 +143,15 @@ TEST(SimulatedSeries, FiguresThatAreSwitchedOffAreNought) {
 // 16000 e, before full scale; pixels of different sensitivity are clipped earlier.
 TEST(SimulatedSeries, SaturationIsWherePixelsBeginToBeClipped) {
   ImageSensorOptions sensor = TenBitSensor();
-  const double uneven_e = PutInBy(ShortSeries(), sensor).saturation_e;
+  const double uneven_e = PutInBy(ShortSeries(), sensor).saturation_e.value();
   sensor.fixed_pattern = false;
-  const double even_e = PutInBy(ShortSeries(), sensor).saturation_e;
+  const double even_e = PutInBy(ShortSeries(), sensor).saturation_e.value();
   EXPECT_LT(even_e, sensor.saturation_e - 126.0);
   EXPECT_GT(even_e, sensor.saturation_e - 5.0 * 126.0);
   EXPECT_LT(uneven_e, even_e);
   SimulationOptions amplified = ShortSeries();
   amplified.gain = 4.0;
-  EXPECT_LT(PutInBy(amplified, sensor).saturation_e, even_e / 4.0);
+  EXPECT_LT(PutInBy(amplified, sensor).saturation_e.value(), even_e / 4.0);
 }
 
 TEST(SimulatedSeries, AWrittenSeriesReadsBackToTheBit) {

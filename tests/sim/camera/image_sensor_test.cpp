@@ -13,9 +13,11 @@ const cv::Size kSize(400, 400);
 constexpr double kPixels = 400.0 * 400.0;
 constexpr ExposureSetting kMillisecond{.exposure_s = 1e-3, .gain = 1.0};
 
-// Only temporal noise, of known size, without a fixed pattern; 14 bits hide no electron.
+// Only temporal noise, of known size, without a fixed pattern and linear; 14 bits hide no electron.
 ImageSensorOptions Fine() {
   ImageSensorOptions options;
+  options.linear_range = 1.0;
+  options.read_noise_e = 25.0;
   options.dark_current_e_s = 0.0;
   options.row_noise_e = 0.0;
   options.fixed_pattern = false;
@@ -154,6 +156,8 @@ TEST(ImageSensorTest, RowNoiseIsSharedByARowAndNewInEachFrame) {
 
 TEST(ImageSensorTest, OutputIsTheAdcsUpperBits) {
   ImageSensorOptions options;
+  options.linear_range = 1.0;
+  options.black_level_dn = 32.0;
   options.noise = false;
   options.fixed_pattern = false;
   options.output_bits = 10;
@@ -170,6 +174,49 @@ TEST(ImageSensorTest, OutputIsTheAdcsUpperBits) {
   EXPECT_EQ(ten(0, 1999), 1023);  // Saturated.
   EXPECT_EQ(ten(0, 1601), 1023);
   EXPECT_LT(ten(0, 1595), 1023);
+}
+
+TEST(ImageSensorTest, PhotonTransferIsThatOfRecordedImages) {
+  // What 8-bit images of the MT9V034 show, at a gain of 2: a variance of 0.5 DN² at 12 DN that
+  // grows by 0.03 DN²/DN up to 170 DN and is flat beyond. The recorded figures are rounded.
+  ImageSensorOptions options;
+  options.fixed_pattern = false;
+  const ImageSensor sensor(options, kSize, RandomStream(1));
+  const ExposureSetting exposure{.exposure_s = 1e-3, .gain = 2.0};
+  const auto variance_at = [&](double dn) {
+    // Light that a linear sensor would show at this value: the shoulder begins at 170 DN.
+    const double electrons = (dn - sensor.BlackLevelDn()) / sensor.DnPerElectron(2.0);
+    const cv::Mat1f light(kSize, static_cast<float>(electrons / exposure.exposure_s));
+    return Statistics(sensor.Expose(light, exposure, RandomStream(11))).variance;
+  };
+  EXPECT_NEAR(variance_at(12.0), 0.5, 0.1);
+  EXPECT_NEAR((variance_at(160.0) - variance_at(20.0)) / 140.0, 0.03, 0.003);
+  for (const double dn : {190.0, 220.0, 245.0}) {
+    EXPECT_NEAR(variance_at(dn) / variance_at(165.0), 1.0, 0.05) << dn;
+  }
+}
+
+TEST(ImageSensorTest, TheResponseBendsSmoothlyAndNeverFalls) {
+  ImageSensorOptions options = Fine();
+  options.noise = false;
+  options.linear_range = 0.6;
+  const double range_dn = 16383.0 - options.black_level_dn;
+  const double full_e = ImageSensor(options, kSize, RandomStream(1)).FullScaleElectrons(1.0);
+  cv::Mat1f ramp(1, 2001);
+  for (int u = 0; u < ramp.cols; ++u) {
+    ramp(0, u) = static_cast<float>(1.1 * full_e * u / 2000.0 / 1e-3);
+  }
+  const cv::Mat1w dn = ImageSensor(options, ramp.size(), RandomStream(1))
+                           .Expose(ramp, kMillisecond, RandomStream(1));
+  for (int u = 0; u < ramp.cols; ++u) {
+    const double x = 1.1 * full_e * u / 2000.0 / options.saturation_e;
+    const double bent = x <= 0.6 ? x : 2.0 * std::sqrt(0.6 * x) - 0.6;
+    const double expected = options.black_level_dn + range_dn * std::min(bent, 1.0);
+    EXPECT_NEAR(dn(0, u), expected, 0.51) << x;
+  }
+  // Full scale is reached where the sensor says, and the slope nowhere jumps.
+  EXPECT_EQ(dn(0, 1819), 16383);
+  EXPECT_LT(dn(0, 1816), 16383);
 }
 
 TEST(ImageSensorTest, AutomaticExposureTakesTimeFirstAndGainThen) {
