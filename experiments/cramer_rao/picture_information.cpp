@@ -128,12 +128,7 @@ class Side {
   }
 
   double BlurAt(const Eigen::Vector2d& pixel) const {
-    const Eigen::Vector2d size(view_.electrons.cols, view_.electrons.rows);
-    const Eigen::Vector2d from_centre = pixel - 0.5 * (size - Eigen::Vector2d::Ones());
-    const double rho2 = 4.0 * from_centre.squaredNorm() / size.squaredNorm();
-    const double centre2 = view_.spread.centre_sigma_px * view_.spread.centre_sigma_px;
-    const double corner2 = view_.spread.corner_sigma_px * view_.spread.corner_sigma_px;
-    return std::sqrt(centre2 + (corner2 - centre2) * rho2);
+    return std::sqrt(VarianceAt(view_.spread, view_.electrons.size(), pixel));
   }
 
   double ElectronsAt(const Eigen::Vector2d& pixel) const {

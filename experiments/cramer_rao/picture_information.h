@@ -6,7 +6,7 @@
 #include "core/geometry/camera_model.h"
 #include "experiments/cramer_rao/cramer_rao.h"
 #include "experiments/cramer_rao/pixel_noise.h"
-#include "sim/camera/lens.h"
+#include "sim/camera/point_spread.h"
 
 namespace fenestra {
 

@@ -128,12 +128,10 @@ std::optional<TrialInformation> InformationOf(const StereoRig& rig, const Stereo
                                               const GroundTruth& truth, double border_m,
                                               const std::optional<Eigen::MatrixXd>& calibration) {
   if (!truth.target || !truth.in_view) return std::nullopt;
-  const LensOptions& lens = rig.options().lens;
-  const auto picture_of = [&](const ExposedView& view) {
+  const auto picture_of = [](const ExposedView& view) {
     return StereoPicture{.electrons = view.electrons,
                          .noise = PixelNoise::Linear(view.sensor, view.exposure),
-                         .spread = {.centre_sigma_px = lens.blur_sigma_px,
-                                    .corner_sigma_px = lens.corner_blur_sigma_px}};
+                         .spread = view.spread};
   };
   const auto fisher = StereoInformation(
       FrameState::Of(*truth.target, border_m),

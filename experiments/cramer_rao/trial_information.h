@@ -10,7 +10,7 @@
 #include "experiments/cramer_rao/pixel_noise.h"
 #include "experiments/study/study.h"
 #include "sim/camera/color_camera.h"
-#include "sim/camera/lens.h"
+#include "sim/camera/point_spread.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"
 #include "sim/truth/ground_truth.h"

@@ -52,6 +52,13 @@ void AddStereoRig(FactorTable& t) {
               "Standard deviation of each camera's position as mounted, per axis.")
       .Number("stereo_gain_tolerance_percent", FIELD(stereo.tolerances.gain), {0.0, 15.0, kPercent},
               "Standard deviation of each camera's grey values per electron as built.")
+      .Number("stereo_sensor_tilt_tolerance_mrad", FIELD(stereo.tolerances.sensor_tilt_rad),
+              {0.0, 50.0, kMilli},
+              "Standard deviation of each sensor's tilt against its lens as built, per axis.")
+      .Number("stereo_coma_centre_tolerance_percent", FIELD(stereo.tolerances.coma_centre),
+              {0.0, 100.0, kPercent},
+              "Standard deviation of where each lens has no coma, per axis, in half diagonals from "
+              "the image's centre.")
       .Choice("stereo_calibration", FIELD(stereo_calibration.source),
               {"exact", "perturbed", "boards", "stale", "design"},
               "Calibration that detectors are given: as built, as built with a random error, from "

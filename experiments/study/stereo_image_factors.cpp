@@ -15,6 +15,10 @@ void AddStereoImages(FactorTable& t) {
       .Number("stereo_corner_blur_px", FIELD(stereo.lens.corner_blur_sigma_px), {0.0, 10.0},
               "Standard deviation of the lens' Gaussian point spread in the image's corners, at "
               "least that on the axis.")
+      .Number("stereo_corner_coma_px", FIELD(stereo.corner_coma_px), {-5.0, 5.0},
+              "Sagittal coma in the image's corners; positive: tails point outwards.")
+      .Number("stereo_focus_distance_m", FIELD(stereo.focus_distance_m), {0.05, 1e6},
+              "Distance at which the middle of each image is in focus.")
       .Number("stereo_corner_illumination", FIELD(stereo.lens.corner_illumination), {0.05, 1.0},
               "Share of the light that reaches the corners, besides natural vignetting.")
       .Number(

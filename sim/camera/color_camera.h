@@ -7,6 +7,7 @@
 #include "renderers/ray_caster.h"
 #include "sim/camera/image_sensor.h"
 #include "sim/camera/lens.h"
+#include "sim/camera/point_spread.h"
 #include "sim/motion/rolling_shutter.h"
 
 namespace fenestra {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <opencv2/core.hpp>
 
 #include "renderers/tracing/ray_grid.h"
@@ -23,12 +24,23 @@ struct LensOptions {
   double veiling_glare = 0.03;
 };
 
-/// A Gaussian point spread whose variance grows with the square of the distance from the image's
-/// centre:  σ²(ρ) = σ₀² + (σ₁² - σ₀²) ρ²,  ρ = 1 in the corners.
-struct PointSpread {
-  double centre_sigma_px;
-  double corner_sigma_px;
+/// A lens before a sensor that may be tilted.
+struct Focus {
+  double focal_length_m;
+  double f_number;
+  double pixel_pitch_m;
+  double distance_m;  ///< Of what is in focus in the image's centre.
+  /// Slopes of the sensor towards the scene, along the image's columns and rows.
+  Eigen::Vector2d tilt_rad = Eigen::Vector2d::Zero();
 };
+
+/// Diameter of each pixel's circle of confusion [px], of a thin lens:
+///
+///     c = |f² (1/z - 1/z_focus) + tilt · x| / (N pitch),   x: place on the sensor [m].
+///
+/// inverse_distance: 1/z along the optical axis [1/m], of an image of the result's size. First
+/// order in f/z. Domain: z ≫ f.
+cv::Mat1f CirclesOfConfusion(const cv::Mat1f& inverse_distance, const Focus& focus);
 
 /// Image-plane illuminance per scene luminance on the axis: E/L = π τ / (4 N²) [lx/(cd/m²)].
 double IlluminancePerLuminance(const LensOptions& lens);
@@ -41,16 +53,5 @@ cv::Mat1f RelativeIllumination(const RayGrid& rays, const LensOptions& lens);
 /// image:  (1 - g) E + g mean(E),  in each channel. What the lens does not see is taken to be as
 /// bright as what it sees. Domain: 0 ≤ g ≤ 1; float images.
 cv::Mat WithVeilingGlare(const cv::Mat& image, double glare);
-
-/// The image that pixels integrate behind a lens: the mean over each pixel's area of the image
-/// convolved with a point spread. The light must be known by quarters of pixels: blurring whole
-/// pixels would displace edges along rows by up to 0.03 px.
-///
-/// One kernel over the quarters, of a Gaussian and the pixel's square, has the discrete variance
-/// σ₀² + 1/16, which with the quarters' own 1/48 is that of the optics and the pixel, σ₀² + 1/12.
-/// Three-tap kernels whose discrete variances add up to σ² - σ₀², exactly, at every pixel follow.
-/// The border is replicated. Domain: 0 ≤ σ₀ ≤ σ₁ ≤ 20 px; float images of one size and number of
-/// channels, which the result has too.
-cv::Mat Gather(const QuarterImages& quarters, const PointSpread& spread);
 
 }  // namespace fenestra

@@ -12,6 +12,7 @@
 #include "scenes/facade/facade.h"
 #include "sim/camera/image_sensor.h"
 #include "sim/camera/lens.h"
+#include "sim/camera/point_spread.h"
 #include "sim/motion/rig_pose.h"
 #include "sim/stereo/stereo_rig.h"
 #include "sim/structured_light/structured_light_sensor.h"

@@ -156,7 +156,7 @@ TEST(StereoRigTest, EachCameraIsExposedByItsOwnImage) {
   EXPECT_GT(std::abs(MeanShare(shared.right) - 0.3), 0.01);
 }
 
-TEST(StereoRigTest, GreyValuesPerElectronScatterByTheirTolerance) {
+TEST(StereoRigTest, CamerasScatterInGainAndDecentringByTheirTolerances) {
   StereoRigOptions options;
   options.width_px = 64;
   options.height_px = 48;
@@ -167,16 +167,20 @@ TEST(StereoRigTest, GreyValuesPerElectronScatterByTheirTolerance) {
   constexpr int kRigs = 200;
   double left2 = 0.0;
   double product = 0.0;
+  double decentred2 = 0.0;
   for (uint64_t i = 0; i < kRigs; ++i) {
     const StereoShot shot = StereoRig(options, RandomStream(3).Child("rig", i))
                                 .Shoot(caster, {}, kBeside, RandomStream(2));
     const double left = options.sensor.saturation_e / shot.left.sensor.saturation_e - 1.0;
     const double right = options.sensor.saturation_e / shot.right.sensor.saturation_e - 1.0;
+    decentred2 += shot.right.spread.coma_centre.squaredNorm() / (2.0 * kRigs);
     left2 += left * left / kRigs;
     product += left * right / kRigs;
   }
   EXPECT_NEAR(std::sqrt(left2) / 0.03, 1.0, 5.0 / std::sqrt(2.0 * kRigs));
   EXPECT_NEAR(product / (0.03 * 0.03), 0.0, 5.0 / std::sqrt(kRigs));
+  EXPECT_NEAR(std::sqrt(decentred2) / options.tolerances.coma_centre, 1.0,
+              5.0 / std::sqrt(4.0 * kRigs));
 }
 
 TEST(StereoRigTest, TheMiddleOfALongerExposureIsLater) {
@@ -259,6 +263,20 @@ TEST(StereoRigTest, MotionSmearsAnEdgeOverTheDistanceThatItMoves) {
   const double smear_px = DesignOf(options).left.parameters().fx_px * 0.024 / 4.0;
   // 8-bit steps on an edge of 100 DN.
   EXPECT_NEAR(slope_variance(3.0) - slope_variance(0.0), smear_px * smear_px / 12.0, 0.15);
+}
+
+TEST(StereoRigTest, APointSpreadIsWiderWhereTheSceneIsOutOfFocus) {
+  // A target at 1 m before a lens that is in focus at 3 m: f²/(N pitch) (1/1 - 1/3) in the middle.
+  const StereoRig rig(Ideal(), RandomStream(1));
+  const RayCaster caster(MakePaperTarget({}));
+  const auto confusion_at = [&](double distance_m) {
+    const Pose X_WB = RigPose({.distance_m = distance_m}, Pose());
+    const cv::Mat1f& map = rig.Shoot(caster, {}, X_WB, RandomStream(2)).left.spread.confusion_px;
+    return static_cast<double>(map(map.rows / 2, map.cols / 2));
+  };
+  const double px_m = 4e-3 * 4e-3 / (2.8 * 6e-6);
+  EXPECT_NEAR(confusion_at(1.0), px_m * (1.0 - 1.0 / 3.0), 1e-3);
+  EXPECT_NEAR(confusion_at(3.0), 0.0, 1e-3);
 }
 
 TEST(StereoRigTest, TruthIsInTheTrueLeftCamera) {
