@@ -82,8 +82,12 @@ void AddStereoRig(FactorTable& t) {
               "Standard deviation per axis of the translation between the cameras in a perturbed "
               "calibration.");
   AddMotionFactors(t, "stereo", FIELD(stereo.motion));
-  t.Number("stereo_trigger_skew_us", FIELD(stereo.trigger_skew_s), {-1e6, 1e6, kMicro},
-           "Delay of the right camera's exposure after the left one's.");
+  t.Number("stereo_hover_speed_m_s", FIELD(stereo.hover.speed_m_s), {0.0, 10.0},
+           "Standard deviation per axis of the velocity of a hovering rig, new in each image.")
+      .Number("stereo_hover_turn_deg_s", FIELD(stereo.hover.turn_rad_s), {0.0, 500.0, kDegree},
+              "Standard deviation per axis of the rate at which a hovering rig turns.")
+      .Number("stereo_trigger_skew_us", FIELD(stereo.trigger_skew_s), {-1e6, 1e6, kMicro},
+              "Delay of the right camera's exposure after the left one's.");
 }
 
 #undef FIELD

@@ -170,7 +170,7 @@ TrueSensor CellRunner::SensorOf(const SimulatedTrial& simulated) const {
     return {.cameras = cameras, .velocity_W = R_WB * (motion.velocity_B + turning_B)};
   };
   if (const auto* rig = std::get_if<StereoRig>(&instrument->sensor)) {
-    return sensor(rig->cameras(), rig->X_BL(), rig->options().motion);
+    return sensor(rig->cameras(), rig->X_BL(), rig->MotionDuring(simulated.trial.streams.shot));
   }
   const auto& rgbd = std::get<StructuredLightSensor>(instrument->sensor);
   return sensor(rgbd.cameras(), rgbd.X_WD(Pose()), rgbd.options().motion);

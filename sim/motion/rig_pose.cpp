@@ -50,6 +50,15 @@ Pose RigPose(const Viewpoint& viewpoint, const Pose& X_WO) {
   return X_WO * Pose(R_OA * R_AB, viewpoint.distance_m * outward_O);
 }
 
+RigMotion WithHover(const RigMotion& motion, const HoverOptions& hover, const RandomStream& image) {
+  const auto three_normals = [](const RandomStream& stream) {
+    return Eigen::Vector3d(stream.Normal(0), stream.Normal(1), stream.Normal(2));
+  };
+  return {.velocity_B = motion.velocity_B + hover.speed_m_s * three_normals(image.Child("speed")),
+          .angular_velocity_B =
+              motion.angular_velocity_B + hover.turn_rad_s * three_normals(image.Child("turn"))};
+}
+
 Pose PoseAt(const Pose& X_WB, const RigMotion& motion, double t_s) {
   if (motion.still() || t_s == 0.0) return X_WB;
   const Eigen::Vector3d rotation = motion.angular_velocity_B * t_s;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/pose.h"
+#include "core/random/random_stream.h"
 
 namespace fenestra {
 
@@ -32,6 +33,17 @@ struct RigMotion {
 
   bool still() const { return velocity_B.isZero(0.0) && angular_velocity_B.isZero(0.0); }
 };
+
+/// How a vehicle moves that holds its place: standard deviations of independent normal laws of its
+/// velocities along and about each axis, new in each image. Assumed: some centimetres and degrees
+/// per second are usual for multirotors indoors and in light wind.
+struct HoverOptions {
+  double speed_m_s = 0.05;
+  double turn_rad_s = 0.05;
+};
+
+/// A motion with that of hovering added, as drawn from the stream.
+RigMotion WithHover(const RigMotion& motion, const HoverOptions& hover, const RandomStream& image);
 
 /// X_WB at time t [s], given X_WB at time 0:  X_WB exp(t [ω; v]), a screw motion.
 Pose PoseAt(const Pose& X_WB, const RigMotion& motion, double t_s);

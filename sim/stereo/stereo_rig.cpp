@@ -86,6 +86,7 @@ StereoRig StereoRig::Displaced(const Pose& X_RRnew) const {
 StereoRig StereoRig::Still() const {
   StereoRig still = *this;
   still.options_.motion = {};
+  still.options_.hover = {.speed_m_s = 0.0, .turn_rad_s = 0.0};
   still.options_.trigger_skew_s = 0.0;
   return still;
 }
@@ -101,9 +102,14 @@ StereoRig StereoRig::WithNoise() const {
   return noisy;
 }
 
+RigMotion StereoRig::MotionDuring(const RandomStream& shot) const {
+  return WithHover(options_.motion, options_.hover, shot.Child("hover"));
+}
+
 QuarterImages StereoRig::Light(const StereoCamera& camera, const Pose& X_BC,
                                const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
-                               double t_s, double exposure_s, const RandomStream& sampling) const {
+                               const RigMotion& motion, double t_s, double exposure_s,
+                               const RandomStream& sampling) const {
   const RenderOptions render{.band = Band::kLuminance,
                              .samples_per_pixel = 4,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
@@ -112,15 +118,14 @@ QuarterImages StereoRig::Light(const StereoCamera& camera, const Pose& X_BC,
   constexpr double kMostPictures = 64.0;
   // Assumes that nothing is closer to the camera.
   constexpr double kNearest_m = 0.5;
-  const double motion_px =
-      ImageMotion(options_.motion, exposure_s, camera.model().parameters().fx_px,
-                  LargestRadius(camera.rays()), kNearest_m);
+  const double motion_px = ImageMotion(motion, exposure_s, camera.model().parameters().fx_px,
+                                       LargestRadius(camera.rays()), kNearest_m);
   const int pictures =
       std::max(1, static_cast<int>(std::ceil(std::min(motion_px / kStep_px, kMostPictures))));
   QuarterImages sum;
   for (int i = 0; i < pictures; ++i) {
     const double middle_s = t_s + ((i + 0.5) / pictures - 0.5) * exposure_s;
-    const Pose X_WC = PoseAt(X_WB, options_.motion, middle_s) * X_BC;
+    const Pose X_WC = PoseAt(X_WB, motion, middle_s) * X_BC;
     QuarterImages picture = caster.RenderQuarters(
         camera.rays(), X_WC, lighting, render, sampling.Child("picture", static_cast<uint64_t>(i)));
     if (pictures == 1) return picture;
@@ -152,6 +157,7 @@ StereoShot StereoRig::Shoot(const RayCaster& caster, const Lighting& lighting, c
                             const RandomStream& shot) const {
   const RandomStream left_sampling = shot.Child("left_sampling");
   const RandomStream right_sampling = shot.Child("right_sampling");
+  const RigMotion motion = MotionDuring(shot);
   const Pose X_WL = X_WB * X_BL_;
   const Pose X_WR = X_WB * X_BR();
   const ExposureSetting of_left =
@@ -165,11 +171,11 @@ StereoShot StereoRig::Shoot(const RayCaster& caster, const Lighting& lighting, c
   const PointSpread left_spread = left_->SpreadAt(X_WL, caster);
   const PointSpread right_spread = right_->SpreadAt(X_WR, caster);
   const cv::Mat1f left = left_->ElectronsPerSecond(
-      Light(*left_, X_BL_, caster, lighting, X_WB, 0.0, of_left.exposure_s, left_sampling),
+      Light(*left_, X_BL_, caster, lighting, X_WB, motion, 0.0, of_left.exposure_s, left_sampling),
       left_spread);
   const cv::Mat1f right =
-      right_->ElectronsPerSecond(Light(*right_, X_BR(), caster, lighting, X_WB, right_middle_s,
-                                       of_right.exposure_s, right_sampling),
+      right_->ElectronsPerSecond(Light(*right_, X_BR(), caster, lighting, X_WB, motion,
+                                       right_middle_s, of_right.exposure_s, right_sampling),
                                  right_spread);
   return {.observation = {.left = left_->Image(left, of_left, shot.Child("left_noise")),
                           .right = right_->Image(right, of_right, shot.Child("right_noise"))},

@@ -58,6 +58,9 @@ class StereoRig {
   uint64_t pattern_key() const { return pattern_key_; }
   Pose X_BR() const { return X_BL_ * cameras_.X_RL.inverse(); }
 
+  /// The rig's motion while it takes this image.
+  RigMotion MotionDuring(const RandomStream& shot) const;
+
   StereoObservation Observe(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB,
                             const RandomStream& shot) const;
   /// An observation with its exposure and light.
@@ -72,10 +75,10 @@ class StereoRig {
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
  private:
-  /// Luminance on a camera's sensor, averaged over an exposure around t.
+  /// Luminance on the sensor of a camera in motion, averaged over an exposure around t.
   QuarterImages Light(const StereoCamera& camera, const Pose& X_BC, const RayCaster& caster,
-                      const Lighting& lighting, const Pose& X_WB, double t_s, double exposure_s,
-                      const RandomStream& sampling) const;
+                      const Lighting& lighting, const Pose& X_WB, const RigMotion& motion,
+                      double t_s, double exposure_s, const RandomStream& sampling) const;
 
   StereoRigOptions options_;
   Pose X_BL_;

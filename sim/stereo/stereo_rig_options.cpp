@@ -47,6 +47,8 @@ void Validate(const StereoRigOptions& o) {
                              o.lens.corner_blur_sigma_px, o.lens.blur_sigma_px));
   faults.Require(o.focus_distance_m > 0.0,
                  fmt::format("focus distance {} m is not positive", o.focus_distance_m));
+  faults.Require(o.hover.speed_m_s >= 0.0 && o.hover.turn_rad_s >= 0.0,
+                 "speeds of hovering must not be negative");
   const RigTolerances& t = o.tolerances;
   faults.Require(t.focal_length >= 0.0 && t.principal_point_px >= 0.0 && t.distortion >= 0.0 &&
                      t.rotation_rad >= 0.0 && t.translation_m >= 0.0 && t.gain >= 0.0 &&

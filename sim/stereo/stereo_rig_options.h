@@ -48,8 +48,11 @@ struct StereoRigOptions {
   bool as_designed = false;  ///< Whether the rig has no deviations; tolerances have no effect then.
   RigTolerances tolerances;
   RigMotion motion;
-  /// Delay of the right camera's exposure after the left one's [s].
-  double trigger_skew_s = 0.0;
+  HoverOptions hover;  ///< Added to the motion.
+  /// Delay of the right camera's exposure after the left one's [s]. Both are triggered by one line
+  /// (IDS, application note on synchronised uEye cameras); assumed: they answer to within the time
+  /// of one row, 846 clocks of 27 MHz. By software it may be tens of milliseconds.
+  double trigger_skew_s = 31e-6;
   /// Samples of pixels that more than one edge crosses; see RenderOptions.
   int edge_samples_per_pixel = 256;
 };

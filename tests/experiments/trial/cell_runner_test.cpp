@@ -136,12 +136,14 @@ TEST(CellRunner, ADepthSensorSaysWhyPixelsHaveNoReturn) {
 
 // The left camera turns with the rig, half a baseline from its middle: v + ω × r.
 TEST(CellRunner, TheTrueSensorMovesAsTheRigDoes) {
-  const Study still = StudyOf("  stereo_as_designed: true\n");
+  const std::string no_hover = "  stereo_hover_speed_m_s: 0\n  stereo_hover_turn_deg_s: 0\n";
+  const Study still = StudyOf("  stereo_as_designed: true\n" + no_hover);
   const CellRunner bench = BenchOf(still);
   EXPECT_EQ(bench.SensorOf(bench.Simulate(0)).velocity_W.norm(), 0.0);
   const Study moving = StudyOf(
       "  stereo_as_designed: true\n  stereo_speed_forward_m_s: 0.5\n"
-      "  stereo_yaw_rate_deg_s: 30\n");
+      "  stereo_yaw_rate_deg_s: 30\n" +
+      no_hover);
   const CellRunner turning = BenchOf(moving);
   const double radius_m = 0.5 * turning.cell().settings.stereo.baseline_m;
   // Forwards, and sideways-on the left camera goes along the axis as well: ω y × -r x = +ω r z.

@@ -18,6 +18,8 @@ StereoRigOptions Ideal() {
   options.sensor.fixed_pattern = false;
   options.sensor.black_level_dn = 0.0;
   options.as_designed = true;
+  options.hover = {.speed_m_s = 0.0, .turn_rad_s = 0.0};
+  options.trigger_skew_s = 0.0;
   return options;
 }
 
@@ -235,6 +237,28 @@ TEST(StereoRigTest, TheRightCameraIsLateByItsSkew) {
   const double f_px = DesignOf(options).left.parameters().fx_px;
   EXPECT_NEAR(FirstDarkEdge(in_time.right, 240) - FirstDarkEdge(skewed.right, 240),
               f_px * 0.02 / 4.0, 0.08);
+}
+
+TEST(StereoRigTest, AHoveringRigMovesAnewInEachImageAndStandsForBoards) {
+  StereoRigOptions options = Ideal();
+  options.motion.velocity_B = {0.0, 0.0, 1.0};
+  options.hover = {.speed_m_s = 0.2, .turn_rad_s = 0.1};
+  const StereoRig rig(options, RandomStream(1));
+  constexpr int kImages = 2000;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double speed2 = 0.0;
+  double turn2 = 0.0;
+  for (uint64_t i = 0; i < kImages; ++i) {
+    const RigMotion motion = rig.MotionDuring(RandomStream(2).Child("image", i));
+    mean += motion.velocity_B / kImages;
+    speed2 += (motion.velocity_B - options.motion.velocity_B).squaredNorm() / (3.0 * kImages);
+    turn2 += motion.angular_velocity_B.squaredNorm() / (3.0 * kImages);
+  }
+  // Five standard deviations of a mean, and of the RMS of 3 n variates, 1/√(6n).
+  EXPECT_LT((mean - options.motion.velocity_B).norm(), 5.0 * 0.2 * std::sqrt(3.0 / kImages));
+  EXPECT_NEAR(std::sqrt(speed2) / 0.2, 1.0, 5.0 / std::sqrt(6.0 * kImages));
+  EXPECT_NEAR(std::sqrt(turn2) / 0.1, 1.0, 5.0 / std::sqrt(6.0 * kImages));
+  EXPECT_TRUE(rig.Still().MotionDuring(RandomStream(2)).still());
 }
 
 TEST(StereoRigTest, MotionSmearsAnEdgeOverTheDistanceThatItMoves) {
