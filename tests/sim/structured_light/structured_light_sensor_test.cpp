@@ -30,6 +30,7 @@ TEST(StructuredLightSensorTest, TheColourImagesMeanIsWhatAutomaticExposureAimsFo
 TEST(StructuredLightSensorTest, RegisteredDepthLiesWhereTheColourCameraSeesIt) {
   StructuredLightOptions options = Noiseless();
   options.registered_depth = true;
+  options.color_offset_m = 0.1;
   const StructuredLightSensor sensor(options);
   const RayCaster caster(BoxBeforeWall(0.3, 1.0));
   const Pose X_WB = RigPose({.distance_m = 3.0}, Pose());
@@ -49,9 +50,9 @@ TEST(StructuredLightSensorTest, RegisteredDepthLiesWhereTheColourCameraSeesIt) {
   }
   // Only along the plate's outline, of 2 · 160 + 2 · 160 pixels, windows and rounding err.
   EXPECT_LT(wrong, 700);
-  // 25 mm to the right, the colour camera sees more of the wall beside the plate's right edge:
-  // 265.6 · 0.025 (1/2 - 1/3) = 1.1 px along its 80 px.
-  EXPECT_NEAR(lost, 88.0, 60.0);
+  // 0.1 m to the right, the colour camera sees more of the wall beside the plate's right edge:
+  // 265.6 · 0.1 (1/2 - 1/3) = 4.4 px along its 80 px, to within a pixel of the outline.
+  EXPECT_NEAR(lost / 80.0, 4.4, 1.0);
   // The plate is where its middle is: 2 m ahead.
   EXPECT_NEAR(frame.depth.raw(120, 160) * 0.001, 2.0, 0.02);
   // The truth is that of the same camera.
