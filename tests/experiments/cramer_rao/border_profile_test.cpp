@@ -11,6 +11,7 @@ namespace {
 // A sensor whose values say how many electrons there were, apart from noise of this deviation.
 ImageSensorOptions SensorOfNoise(double deviation_e) {
   return {.saturation_e = 65535.0,
+          .linear_range = 1.0,
           .dsnu_e = deviation_e,
           .prnu = 0.0,
           .adc_bits = 16,
@@ -57,6 +58,7 @@ TEST(BorderProfileTest, AnEdgeInFixedNoiseHasItsClosedForm) {
 // published for the MT9V032 from its data sheet's figures, by how full the wall makes the pixels.
 TEST(BorderProfileTest, AnEdgeOfTheStereoCameraHasItsPublishedBound) {
   ImageSensorOptions sensor{.saturation_e = 16000.0,
+                            .linear_range = 1.0,
                             .read_noise_e = 29.0,
                             .adc_bits = 8,
                             .output_bits = 8,

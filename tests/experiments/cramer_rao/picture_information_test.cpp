@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kFocal_px = 300.0;
 constexpr double kDistance_m = 3.0;
-constexpr PointSpread kSpread{.centre_sigma_px = 0.5, .corner_sigma_px = 0.5};
+const PointSpread kSpread{.centre_sigma_px = 0.5, .corner_sigma_px = 0.5};
 // The frame's unknowns, the blur, levels; then the camera's and the pose's.
 constexpr int kBlur = kFrameUnknowns;
 constexpr int kLevels = kBlur + 1;

@@ -24,6 +24,10 @@ constexpr char kStereo[] =
     "detectors: [edge-stereo]\n"
     "factors:\n"
     "  stereo_calibration: exact\n"
+    // The bound knows neither.
+    "  stereo_corner_coma_px: 0\n"
+    "  stereo_hover_speed_m_s: 0\n"
+    "  stereo_hover_turn_deg_s: 0\n"
     "  distance_m: 3\n"
     "  sky_illuminance_lx: 500\n"
     "  roll_deg: {uniform: [-4, 4]}\n"
