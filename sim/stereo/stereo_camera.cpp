@@ -45,15 +45,6 @@ Eigen::Vector2d Scatter(const StereoRigOptions& options, double deviation,
   return deviation * Eigen::Vector2d(stream.Normal(0), stream.Normal(1));
 }
 
-// Of what a camera sees, 1/z; 0 where there is nothing.
-cv::Mat1f InverseDistances(const RayCaster& caster, const RayGrid& rays, const Pose& X_WC) {
-  const cv::Mat1f depth_m = caster.CastAovs(rays, X_WC, {}, {}).depth_m;
-  cv::Mat1f inverse(depth_m.size());
-  std::transform(depth_m.begin(), depth_m.end(), inverse.begin(),
-                 [](float z_m) { return std::isnan(z_m) ? 0.0f : 1.0f / z_m; });
-  return inverse;
-}
-
 // The camera with pixels that are four times as large, fewer of them if need be.
 CameraModel CoarseCamera(const CameraModel& camera) {
   constexpr int kLarger = 4;
@@ -117,10 +108,17 @@ PointSpread StereoCamera::SpreadInFocus() const {
           .coma_centre = coma_centre_};
 }
 
-PointSpread StereoCamera::SpreadAt(const Pose& X_WC, const RayCaster& caster) const {
+cv::Mat1f StereoCamera::InverseDistances(const Pose& X_WC, const RayCaster& caster) const {
+  const cv::Mat1f depth_m = caster.CastAovs(coarse_rays_, X_WC, {}, {}).depth_m;
+  cv::Mat1f inverse(depth_m.size());
+  std::transform(depth_m.begin(), depth_m.end(), inverse.begin(),
+                 [](float z_m) { return std::isnan(z_m) ? 0.0f : 1.0f / z_m; });
+  return inverse;
+}
+
+PointSpread StereoCamera::SpreadAt(const cv::Mat1f& inverse_distances) const {
   cv::Mat1f inverse_distance;
-  cv::resize(InverseDistances(caster, coarse_rays_, X_WC), inverse_distance, sensor_.size(), 0.0,
-             0.0, cv::INTER_LINEAR);
+  cv::resize(inverse_distances, inverse_distance, sensor_.size(), 0.0, 0.0, cv::INTER_LINEAR);
   PointSpread spread = SpreadInFocus();
   spread.confusion_px = CirclesOfConfusion(inverse_distance, focus_);
   return spread;

@@ -35,8 +35,10 @@ class StereoCamera {
 
   /// The point spread where everything is at the distance of focus.
   PointSpread SpreadInFocus() const;
-  /// The point spread for a view from X_WC. Distances are those of blocks of four by four pixels.
-  PointSpread SpreadAt(const Pose& X_WC, const RayCaster& caster) const;
+  /// 1/z of what is seen from X_WC in blocks of four by four pixels; 0 where there is nothing.
+  cv::Mat1f InverseDistances(const Pose& X_WC, const RayCaster& caster) const;
+  /// The point spread for a view of what is this far.
+  PointSpread SpreadAt(const cv::Mat1f& inverse_distances) const;
 
   /// Photo-electrons per pixel and second for luminance in the image plane [cd/m²].
   cv::Mat1f ElectronsPerSecond(const QuarterImages& luminance, const PointSpread& spread) const;

@@ -75,10 +75,12 @@ class StereoRig {
   TruthImages PixelTruth(const RayCaster& caster, const Lighting& lighting, const Pose& X_WB) const;
 
  private:
-  /// Luminance on the sensor of a camera in motion, averaged over an exposure around t.
+  /// Luminance on the sensor of a camera in motion, averaged over an exposure around t. Nothing is
+  /// nearer than nearest_m.
   QuarterImages Light(const StereoCamera& camera, const Pose& X_BC, const RayCaster& caster,
                       const Lighting& lighting, const Pose& X_WB, const RigMotion& motion,
-                      double t_s, double exposure_s, const RandomStream& sampling) const;
+                      double nearest_m, double t_s, double exposure_s,
+                      const RandomStream& sampling) const;
 
   StereoRigOptions options_;
   Pose X_BL_;
