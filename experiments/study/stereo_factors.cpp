@@ -61,26 +61,46 @@ void AddStereoRig(FactorTable& t) {
               "the image's centre.")
       .Choice("stereo_calibration", FIELD(stereo_calibration.source),
               {"exact", "perturbed", "boards", "stale", "design"},
-              "Calibration that detectors are given: as built, as built with a random error, from "
-              "pictures of boards, from boards before the rig was shaken, or as designed.")
+              "Calibration that detectors are given: as built, as built with the random error that "
+              "boards and drift leave, from pictures of boards, from boards before the rig was "
+              "shaken, or as designed.")
       .Integer("stereo_calibration_boards", FIELD(stereo_calibration.boards), {3, 1000},
                "Number of pictures of the board that the rig is calibrated with.")
       .Choice("stereo_calibration_board", FIELD(stereo_calibration.board),
               {"chessboard", "charuco"}, "Kind of board that the rig is calibrated with.")
+      .Number("stereo_board_bow_percent", FIELD(stereo_calibration.board_tolerances.bow),
+              {0.0, 5.0, kPercent},
+              "Standard deviation of the board's bow along each side, and of its twist, as a share "
+              "of the diagonal.")
+      .Number("stereo_board_line_error_percent",
+              FIELD(stereo_calibration.board_tolerances.line_error), {0.0, 10.0, kPercent},
+              "Standard deviation of each line of the board as printed, as a share of a square.")
+      .Number("stereo_board_scale_percent", FIELD(stereo_calibration.board_tolerances.print_scale),
+              {0.0, 10.0, kPercent},
+              "Standard deviation of the scale at which the board is printed.")
+      .Number("stereo_board_anisotropy_percent",
+              FIELD(stereo_calibration.board_tolerances.print_anisotropy), {0.0, 10.0, kPercent},
+              "Standard deviation of the print's scale along one axis against the other.")
+      .Switch("stereo_calibration_free_k3", FIELD(stereo_calibration.free_k3),
+              "Whether a calibration with boards adjusts k3 too, or takes it to be 0.")
       .Number("stereo_shake_rotation_mrad", FIELD(stereo_calibration.shake_rotation_rad),
               {0.0, 50.0, kMilli},
               "Standard deviation per axis of the right camera's turn after a stale calibration.")
       .Number("stereo_shake_translation_mm", FIELD(stereo_calibration.shake_translation_m),
               {0.0, 50.0, kMilli},
               "Standard deviation per axis of the right camera's shift after a stale calibration.")
-      .Number("stereo_calibration_rotation_error_mrad",
-              FIELD(stereo_calibration.rotation_error_rad), {0.0, 50.0, kMilli},
-              "Standard deviation per axis of the rotation between the cameras in a perturbed "
-              "calibration.")
+      .Number(
+          "stereo_calibration_rotation_error_mrad", FIELD(stereo_calibration.rotation_error_rad),
+          {0.0, 50.0, kMilli},
+          "Standard deviation per axis of the right camera's drift in rotation since a perturbed "
+          "calibration.")
       .Number("stereo_calibration_translation_error_mm",
               FIELD(stereo_calibration.translation_error_m), {0.0, 50.0, kMilli},
-              "Standard deviation per axis of the translation between the cameras in a perturbed "
-              "calibration.");
+              "Standard deviation per axis of the right camera's drift in translation since a "
+              "perturbed calibration.")
+      .Number("stereo_calibration_corner_noise_px", FIELD(stereo_calibration.corner_noise_px),
+              {0.0, 10.0},
+              "Standard deviation of the corners' coordinates of a perturbed calibration.");
   AddMotionFactors(t, "stereo", FIELD(stereo.motion));
   t.Number("stereo_hover_speed_m_s", FIELD(stereo.hover.speed_m_s), {0.0, 10.0},
            "Standard deviation per axis of the velocity of a hovering rig, new in each image.")

@@ -8,26 +8,48 @@
 #include "core/random/random_stream.h"
 #include "core/system/check.h"
 #include "experiments/study/factors.h"
+#include "experiments/trial/board_theory.h"
 
 namespace fenestra {
 namespace {
 
-StereoCalibration Perturbed(const StereoCalibration& truth, const CalibrationChoice& choice,
+BoardSessionOptions SessionOf(const CalibrationChoice& choice) {
+  BoardSessionOptions session;
+  session.board.kind = choice.board;
+  session.tolerances = choice.board_tolerances;
+  session.views = choice.boards;
+  return session;
+}
+
+// What boards leave, to first order, for a rig of this design.
+Eigen::MatrixXd ErrorsOfBoards(const StereoRig& rig, const CalibrationChoice& choice) {
+  return BoardErrors(DesignOf(rig.options()), SessionOf(choice), choice.corner_noise_px,
+                     {.free_k3 = choice.free_k3});
+}
+
+StereoCalibration Perturbed(const StereoRig& rig, const CalibrationChoice& choice,
                             const RandomStream& stream) {
-  const Pose error = RandomPose(stream, choice.rotation_error_rad, choice.translation_error_m);
-  return {.left = truth.left, .right = truth.right, .X_RL = error * truth.X_RL};
+  const Eigen::MatrixXd errors = ErrorsOfBoards(rig, choice);
+  const RandomStream boards = stream.Child("boards");
+  Eigen::VectorXd normals(errors.cols());
+  for (Eigen::Index i = 0; i < normals.size(); ++i) {
+    normals[i] = boards.Normal(static_cast<uint64_t>(i));
+  }
+  StereoCalibration nominal = WithError(rig.cameras(), errors * normals);
+  const Pose drift = RandomPose(stream, choice.rotation_error_rad, choice.translation_error_m);
+  nominal.X_RL = drift * nominal.X_RL;
+  return nominal;
 }
 
 CalibrationWithCovariance WithBoards(const StereoRig& rig, const CalibrationChoice& choice,
                                      const RandomStream& stream, const CalibrationCache& cache) {
-  BoardSessionOptions session;
-  session.board.kind = choice.board;
-  session.views = choice.boards;
+  const BoardSessionOptions session = SessionOf(choice);
   // A study that leaves the noise out of its pictures asks what the calibration alone does: the
   // pictures of the boards have theirs.
   const StereoRig noisy = rig.WithNoise();
   const auto calibrate = [&] {
-    const StereoCalibrationResult result = CalibrateWithBoards(noisy, session, stream);
+    const StereoCalibrationResult result =
+        CalibrateWithBoards(noisy, session, {.free_k3 = choice.free_k3}, stream);
     return CalibrationWithCovariance{result.calibration, result.covariance};
   };
   return cache.Get(ContentOf(noisy, choice, stream), calibrate);
@@ -91,7 +113,7 @@ CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
     case CalibrationSource::kExact:
       return with_covariance(rig, rig.cameras());
     case CalibrationSource::kPerturbed:
-      return with_covariance(rig, Perturbed(rig.cameras(), choice, calibration));
+      return with_covariance(rig, Perturbed(rig, choice, calibration));
     case CalibrationSource::kBoards:
       return with_boards(rig);
     case CalibrationSource::kStale:
@@ -110,8 +132,11 @@ std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
   switch (choice.source) {
     case CalibrationSource::kExact:
       return std::nullopt;
-    case CalibrationSource::kPerturbed:
-      return MovedRight(p_RL, choice.rotation_error_rad, choice.translation_error_m);
+    case CalibrationSource::kPerturbed: {
+      const Eigen::MatrixXd errors = ErrorsOfBoards(rig, choice);
+      return PairMatrix(errors * errors.transpose() +
+                        MovedRight(p_RL, choice.rotation_error_rad, choice.translation_error_m));
+    }
     case CalibrationSource::kBoards:
       FENESTRA_CHECK(boards.has_value(), "a calibration with boards has a covariance");
       return boards;
@@ -126,9 +151,10 @@ std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
 
 StereoCalibrationResult CalibrateWithBoards(const StereoRig& rig,
                                             const BoardSessionOptions& session,
+                                            const AdjustmentOptions& adjustment,
                                             const RandomStream& stream) {
   Validate(session);
-  const BoardWorld world(session.board);
+  const BoardWorld world(BoardShape(session.board, session.tolerances, stream.Child("board")));
   std::vector<NamedView> views;
   for (int i = 0; i < session.views; ++i) {
     const RandomStream view = stream.Child("view", static_cast<uint64_t>(i));
@@ -143,9 +169,7 @@ StereoCalibrationResult CalibrateWithBoards(const StereoRig& rig,
   }
   const cv::Size size(rig.options().width_px, rig.options().height_px);
   return CalibrateStereo(views, session.board,
-                         {.left_size = size,
-                          .right_size = size,
-                          .adjustment = {.free_k3 = rig.options().distortion.k3 != 0.0}});
+                         {.left_size = size, .right_size = size, .adjustment = adjustment});
 }
 
 std::string ContentOf(const StereoRig& rig, const CalibrationChoice& choice,
@@ -155,6 +179,8 @@ std::string ContentOf(const StereoRig& rig, const CalibrationChoice& choice,
   settings.stereo = rig.Still().options();
   settings.stereo_calibration.boards = choice.boards;
   settings.stereo_calibration.board = choice.board;
+  settings.stereo_calibration.board_tolerances = choice.board_tolerances;
+  settings.stereo_calibration.free_k3 = choice.free_k3;
   std::string content = ToOpenCvYaml(rig.cameras()) + fmt::format("rig {:016x} boards {:016x}\n",
                                                                   rig.pattern_key(), stream.key());
   for (const ParameterInfo& info : Factors().infos()) {

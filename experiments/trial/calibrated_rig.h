@@ -25,7 +25,9 @@ struct CalibratedRig {
 /// Calibrates a rig that was just built, as the choice's source says:
 ///
 ///     kExact      the rig's own cameras
-///     kPerturbed  the rig's own cameras, the right one turned and shifted at random
+///     kPerturbed  the rig's own cameras with an error that is drawn, not made: what boards leave
+///     to
+///                 first order (BoardErrors), then a turn and a shift of the right camera
 ///     kBoards     bundle adjustment of simulated pictures of a board (CalibrateWithBoards)
 ///     kStale      as kBoards, after which the right camera of the rig that flies is displaced
 ///     kDesign     the cameras of the rig's design
@@ -43,11 +45,13 @@ std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
                                                 const CalibrationChoice& choice,
                                                 const std::optional<PairMatrix>& boards);
 
-/// Calibrates a simulated rig as a real one is: pictures of a board through its own optics and
-/// noise (sim/stereo/board_session), corners, adjustment (vision/calibration). Nothing but the
-/// pictures goes from one to the other. Throws InputError if the pictures do not suffice.
+/// Calibrates a simulated rig as a real one is: pictures of a board of its own, within the
+/// session's tolerances, through the rig's own optics and noise (sim/stereo/board_session),
+/// corners, adjustment to the board as drawn (vision/calibration). Nothing but the pictures goes
+/// from one to the other. Throws InputError if the pictures do not suffice.
 StereoCalibrationResult CalibrateWithBoards(const StereoRig& rig,
                                             const BoardSessionOptions& session,
+                                            const AdjustmentOptions& adjustment,
                                             const RandomStream& stream);
 
 /// All that a calibration with the choice's boards depends on, as text: equal texts, equal results,

@@ -7,6 +7,7 @@
 #include <opencv2/aruco.hpp>
 
 #include "core/io/faults.h"
+#include "core/system/check.h"
 #include "scenes/mesh/solid_lattice.h"
 #include "scenes/paint.h"
 
@@ -105,8 +106,25 @@ Box BoxOf(const Rectangle& r, const Pose& X_WG) {
   return {{top_left.x(), bottom_right.y(), -kBoardPlate_m}, {bottom_right.x(), top_left.y(), 0.0}};
 }
 
+// Moves what the lattice has on the board and its margin to where it is as made.
+void Bend(const BoardShape& shape, const Pose& X_WG, std::vector<glm::vec3>& positions_W) {
+  const CalibrationBoard& board = shape.board();
+  const double margin_m = 1.001 * board.square_m;  // Positions are rounded to single precision.
+  const Pose X_GW = X_WG.inverse();
+  for (glm::vec3& position : positions_W) {
+    const Eigen::Vector3d p_GQ = X_GW * Eigen::Vector3d(position.x, position.y, position.z);
+    if (p_GQ.x() < -margin_m || p_GQ.x() > board.width_m() + margin_m || p_GQ.y() < -margin_m ||
+        p_GQ.y() > board.height_m() + margin_m) {
+      continue;
+    }
+    const Eigen::Vector3d made = X_WG * shape.At(p_GQ.head<2>());
+    position = glm::vec3(made.x(), made.y(), made.z());
+  }
+}
+
 void Check(const BoardSceneOptions& o) {
   Validate(o.board);
+  FENESTRA_CHECK(!o.shape || o.shape->board() == o.board, "the shape is that of another board");
   Faults faults("board_scene");
   const double margin_m = 2.0 * o.board.square_m;
   faults.Require(
@@ -174,7 +192,8 @@ Scene MakeBoardScene(const BoardSceneOptions& options) {
   for (const auto& [box, solid] : boxes) lattice.Fill(box, solid);
 
   Scene scene;
-  const SolidSurface surface = lattice.Surface(SolidLattice::Faces::kFrontOfLattice);
+  SolidSurface surface = lattice.Surface(SolidLattice::Faces::kFrontOfLattice);
+  if (options.shape) Bend(*options.shape, X_WG, surface.positions_W);
   const auto add = [&](Solid solid, const std::string& name, double reflectance) {
     scene.meshes.push_back(
         MeshOf(surface, solid, name, static_cast<uint32_t>(scene.materials.size())));

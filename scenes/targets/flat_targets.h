@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include "core/geometry/calibration_board.h"
 #include "scenes/scene.h"
+#include "scenes/targets/board_shape.h"
 
 namespace fenestra {
 
@@ -24,14 +27,16 @@ struct PaperTargetOptions {
 /// centroid is the world's origin. Throws InputError for sizes that do not fit into each other.
 Scene MakePaperTarget(const PaperTargetOptions& options);
 
-/// A calibration board on a grey wall, all in the plane z = 0 and facing +Z: a board on a stand
-/// that a rig is moved around. Around the squares is a white margin, one square wide.
+/// A calibration board on a grey wall, both facing +Z: a board on a stand that a rig is moved
+/// around. As drawn, all is in the plane z = 0. Around the squares is a white margin, one square
+/// wide, which the board's deviations move too.
 struct BoardSceneOptions {
   CalibrationBoard board;
-  double white_reflectance = 0.80;  ///< Matt print: 0.8–0.85.
-  double black_reflectance = 0.05;  ///< Matt print: 0.04–0.05.
-  double wall_reflectance = 0.60;   ///< So that an exposure for the scene keeps the board's white.
-  double wall_width_m = 12.0;       ///< The wall is centred on the board.
+  std::optional<BoardShape> shape{};  ///< Of this board, as made; nullopt: as drawn.
+  double white_reflectance = 0.80;    ///< Matt print: 0.8–0.85.
+  double black_reflectance = 0.05;    ///< Matt print: 0.04–0.05.
+  double wall_reflectance = 0.60;  ///< So that an exposure for the scene keeps the board's white.
+  double wall_width_m = 12.0;      ///< The wall is centred on the board.
   double wall_height_m = 8.0;
 };
 

@@ -83,6 +83,7 @@ Pose RigPoseFor(const StereoRig& rig, const BoardSessionOptions& session,
 
 void Validate(const BoardSessionOptions& o) {
   Validate(o.board);
+  Validate(o.tolerances);
   Faults faults("calibration session");
   faults.Require(o.views >= 3, fmt::format("{} views are fewer than 3", o.views));
   faults.Require(o.illuminance_lx > 0.0, "the board must be lit");
@@ -94,8 +95,10 @@ void Validate(const BoardSessionOptions& o) {
   faults.ThrowIfAny();
 }
 
-BoardWorld::BoardWorld(const CalibrationBoard& board)
-    : board_(board), caster_(std::make_unique<const RayCaster>(MakeBoardScene({.board = board}))) {}
+BoardWorld::BoardWorld(const BoardShape& shape)
+    : shape_(shape),
+      caster_(std::make_unique<const RayCaster>(
+          MakeBoardScene({.board = shape.board(), .shape = shape}))) {}
 
 std::optional<Pose> DrawBoardPose(const StereoCalibration& design,
                                   const BoardSessionOptions& session, const RandomStream& view) {

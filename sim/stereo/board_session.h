@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/geometry/calibration_board.h"
+#include "scenes/targets/board_shape.h"
 #include "sim/stereo/stereo_rig.h"
 
 namespace fenestra {
@@ -11,6 +12,7 @@ namespace fenestra {
 /// Calibration of a rig: pairs of images of a board from many sides.
 struct BoardSessionOptions {
   CalibrationBoard board;
+  BoardTolerances tolerances{};  ///< Of the board as made; who calibrates believes in `board`.
   int views = 20;
   double illuminance_lx = 3000.0;  ///< A room by its window, or under studio lamps.
   /// Width of the board as a share of the image's width.
@@ -23,15 +25,15 @@ struct BoardSessionOptions {
 /// Throws InputError with all faults.
 void Validate(const BoardSessionOptions& options);
 
-/// A board with the ray caster of its scene, made once for all rigs.
+/// A board as made, with the ray caster of its scene.
 class BoardWorld {
  public:
-  explicit BoardWorld(const CalibrationBoard& board);
-  const CalibrationBoard& board() const { return board_; }
+  explicit BoardWorld(const BoardShape& shape);
+  const BoardShape& shape() const { return shape_; }
   const RayCaster& caster() const { return *caster_; }
 
  private:
-  CalibrationBoard board_;
+  BoardShape shape_;
   std::unique_ptr<const RayCaster> caster_;
 };
 

@@ -28,7 +28,7 @@ struct CornerErrors {
 
 // Corners found in simulated pictures against where the true cameras project them.
 CornerErrors ErrorsOf(const BoardSessionOptions& session, int views) {
-  const BoardWorld world(session.board);
+  const BoardWorld world{BoardShape(session.board, kAsDrawn, RandomStream(0))};
   const StereoRig rig(Noiseless(), RandomStream(1));
   CornerErrors errors;
   double sum = 0.0;
@@ -83,7 +83,8 @@ StereoObservation Front(const CalibrationBoard& board) {
   session.board = board;
   session.largest_tilt_rad = 1e-3;
   session.smallest_share = 0.4;
-  return ShootBoard(StereoRig(Noiseless(), RandomStream(1)), BoardWorld(board), session,
+  return ShootBoard(StereoRig(Noiseless(), RandomStream(1)),
+                    BoardWorld(BoardShape(board, kAsDrawn, RandomStream(0))), session,
                     RandomStream(3));
 }
 

@@ -15,13 +15,16 @@ int main(int argc, char** argv) {
   using namespace fenestra;
   const int rigs = argc > 1 ? std::atoi(argv[1]) : 100;
   const auto seed = static_cast<uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1);
+  BoardSessionOptions drawn;
+  drawn.tolerances = kAsDrawn;
   double sum = 0.0;
   PairVector squares = PairVector::Zero();
   PairVector deviations = PairVector::Zero();
   for (int i = 0; i < rigs; ++i) {
     const RandomStream stream = RandomStream(seed).Child("rig", static_cast<uint64_t>(i));
     const StereoRig rig({}, stream.Child("rig"));
-    const StereoCalibrationResult result = CalibrateWithBoards(rig, {}, stream.Child("boards"));
+    const StereoCalibrationResult result =
+        CalibrateWithBoards(rig, drawn, {}, stream.Child("boards"));
     const PairVector error = PairError(result.calibration, rig.cameras());
     const PairVector deviation = result.covariance.diagonal().cwiseSqrt();
     sum += testing::NormalisedSquaredError(error, result.covariance);
