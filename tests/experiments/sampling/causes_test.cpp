@@ -40,6 +40,7 @@ TEST(Causes, AreByDefaultWhatTheFactorsBelongTo) {
                                                            {"scene", {"frame_reflectance"}},
                                                            {"sensor", {"stereo_read_noise_e"}}}));
   EXPECT_EQ(CausesOf(study, cells[1]), (std::vector<Cause>{{"noise", {"shot"}},
+                                                           {"calibration", {"rig"}},
                                                            {"pose", {"yaw_deg", "pitch_deg"}},
                                                            {"light", {"sky_illuminance_lx"}},
                                                            {"scene", {"frame_reflectance"}}}));
@@ -49,6 +50,9 @@ TEST(Causes, ASharedRigIsNone) {
   const Study study =
       ReadText(std::string(kStudy) + "  stereo_rig_per_trial: false\nsensors: [stereo]\n");
   for (const Cause& cause : CausesOf(study, Cells(study)[0])) EXPECT_NE(cause.name, "calibration");
+  const Study exact =
+      ReadText(std::string(kStudy) + "  rgbd_calibration: exact\nsensors: [rgbd]\n");
+  for (const Cause& cause : CausesOf(exact, Cells(exact)[0])) EXPECT_NE(cause.name, "calibration");
 }
 
 // Column 2 + i of a row differs from column 0 in the sources of cause i and in nothing else, and
