@@ -101,6 +101,8 @@ TEST(BoardCalibrationTest, EveryFactorOfRigAndBoardsIsInTheContent) {
                                                 "stereo_pitch_rate_deg_s",
                                                 "stereo_yaw_rate_deg_s",
                                                 "stereo_roll_rate_deg_s",
+                                                "stereo_hover_speed_m_s",
+                                                "stereo_hover_turn_deg_s",
                                                 "stereo_trigger_skew_us"};
   TrialSettings settings;
   settings.stereo = SmallBoardImages();
