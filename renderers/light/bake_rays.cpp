@@ -141,6 +141,7 @@ SharedCorners Thinned(SharedCorners shared, size_t most) {
 HemisphereDirections MakeHemisphereDirections() {
   constexpr float kStep = 2.0f / kHemisphereCells;
   HemisphereDirections table;
+  table.whole = MakeSquare(-1.0f, -1.0f, 2.0f / kDirectionSquare);
   for (int row = 0; row < kHemisphereCells; ++row) {
     for (int column = 0; column < kHemisphereCells; ++column) {
       const float a = -1.0f + static_cast<float>(row) * kStep;

@@ -58,6 +58,7 @@ using DirectionSquare = std::array<glm::vec3, kLanes>;
 
 struct HemisphereDirections {
   std::vector<DirectionSquare> tiles;  ///< The centres of 4 x 4 cells each; row-major.
+  DirectionSquare whole{};             ///< Sixteen all over the hemisphere.
   std::vector<DirectionSquare> cells;  ///< Sixteen directions inside each cell; row-major.
 };
 

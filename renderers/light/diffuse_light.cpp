@@ -162,7 +162,7 @@ DiffuseLight::PointIrradiances DiffuseLight::FromSky(const SkyDome& dome) const 
   const std::array<double, kSkyPatches> luminances = PatchLuminances(dome);
   std::vector<float> of_view;
   of_view.reserve(bake_.open_views.size());
-  for (const LightBake::OpenView& view : bake_.open_views) {
+  for (const OpenView& view : bake_.open_views) {
     double E = 0.0;
     for (size_t k = 0; k < kSkyPatches; ++k) E += static_cast<double>(view.sky[k]) * luminances[k];
     of_view.push_back(static_cast<float>(E));

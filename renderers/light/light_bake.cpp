@@ -1,198 +1,19 @@
 #include "renderers/light/light_bake.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
-#include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
 
 #include "renderers/light/bake_rays.h"
-#include "renderers/light/lane_kernels.h"
 
 namespace fenestra {
 namespace {
 
 using glm::vec3;
-
-// Transmittances that differ by more than this end differently; what a pane does varies less.
-constexpr float kSameTransmittance = 0.1f;
-constexpr uint32_t kOpen = ~0u;
-
-// The end of a ray.
-struct Ending {
-  uint32_t side = kOpen;  // The side of the surface that was hit.
-  float transmittance = 0.0f;
-  vec3 direction_W{0.0f};
-
-  bool DiffersFrom(const Ending& other) const {
-    if ((side == kOpen) != (other.side == kOpen)) return true;
-    if (std::abs(transmittance - other.transmittance) > kSameTransmittance) return true;
-    return side == kOpen && (direction_W.y > 0.0f) != (other.direction_W.y > 0.0f);
-  }
-};
-
-// Collects the ends of the rays from one point, each standing for a part of the hemisphere.
-class ViewTally {
- public:
-  void Add(const Ending& ending, float weight) {
-    if (ending.side != kOpen) {
-      factors_.push_back({ending.side, weight * ending.transmittance});
-    } else if (ending.direction_W.y > 0.0f) {
-      view_.sky[static_cast<size_t>(SkyPatchOf(ending.direction_W))] +=
-          weight * ending.transmittance;
-      unobstructed_sky_ += weight;
-    } else {
-      view_.ground += weight * ending.transmittance;
-      unobstructed_ground_ += weight;
-    }
-    if (ending.side != kOpen) {
-      (ending.direction_W.y > 0.0f ? unobstructed_sky_ : unobstructed_ground_) += weight;
-    }
-    total_ += weight;
-  }
-
-  // The quadrature's parts above and below the horizon are scaled to their exact values for n.
-  LightBake::OpenView OpenView(const vec3& n) const {
-    const float sky = 0.5f * (1.0f + n.y);
-    const float ground = 0.5f * (1.0f - n.y);
-    LightBake::OpenView view = view_;
-    const float to_sky =
-        unobstructed_sky_ > 0.0f ? std::numbers::pi_v<float> * sky / unobstructed_sky_ : 0.0f;
-    for (float& s : view.sky) s *= to_sky;
-    view.ground *= unobstructed_ground_ > 0.0f ? ground / unobstructed_ground_ : 0.0f;
-    return view;
-  }
-
-  // One form factor per side, in the order of the sides.
-  void AppendFactors(std::vector<LightBake::FormFactor>& out) {
-    std::ranges::sort(factors_, {}, &LightBake::FormFactor::side);
-    for (size_t i = 0; i < factors_.size();) {
-      LightBake::FormFactor sum{factors_[i].side, 0.0f};
-      for (; i < factors_.size() && factors_[i].side == sum.side; ++i) sum.w += factors_[i].w;
-      sum.w /= total_;
-      out.push_back(sum);
-    }
-  }
-
- private:
-  LightBake::OpenView view_;
-  float unobstructed_sky_ = 0.0f;
-  float unobstructed_ground_ = 0.0f;
-  float total_ = 0.0f;
-  std::vector<LightBake::FormFactor> factors_;
-};
-
-class Baker {
- public:
-  explicit Baker(const TracedScene& scene)
-      : scene_(scene),
-        offset_m_(scene.SurfaceOffset(vec3(0.0f))),
-        directions_(MakeHemisphereDirections()) {}
-
-  ViewTally ViewFrom(const BakePoint& point) const {
-    const std::vector<Ending> coarse = CastTiles(point);
-    ViewTally tally;
-    for (int row = 0; row < kHemisphereCells; ++row) {
-      for (int column = 0; column < kHemisphereCells; ++column) {
-        const size_t cell = CellIndex(row, column);
-        if (!OnBoundary(coarse, row, column)) {
-          tally.Add(coarse[cell], static_cast<float>(kLanes));
-          continue;
-        }
-        for (const Ending& ending : Cast(point, directions_.cells[cell])) tally.Add(ending, 1.0f);
-      }
-    }
-    return tally;
-  }
-
-  // The view if nothing stood before the point.
-  LightBake::OpenView UnobstructedView(const BakePoint& point) const {
-    ViewTally tally;
-    for (const DirectionSquare& square : directions_.cells) {
-      const Directions directions = ToWorldAbout(point.n_W, square);
-      for (int i = 0; i < kLanes; ++i) {
-        tally.Add({.transmittance = 1.0f,
-                   .direction_W = {directions.x[i], directions.y[i], directions.z[i]}},
-                  1.0f);
-      }
-    }
-    return tally.OpenView(point.n_W);
-  }
-
- private:
-  static size_t CellIndex(int row, int column) {
-    return static_cast<size_t>(row * kHemisphereCells + column);
-  }
-
-  std::vector<Ending> CastTiles(const BakePoint& point) const {
-    std::vector<Ending> endings(static_cast<size_t>(kHemisphereCells * kHemisphereCells));
-    size_t tile = 0;
-    for (int row = 0; row < kHemisphereCells; row += kDirectionSquare) {
-      for (int column = 0; column < kHemisphereCells; column += kDirectionSquare) {
-        const auto found = Cast(point, directions_.tiles[tile++]);
-        for (int i = 0; i < kLanes; ++i) {
-          endings[CellIndex(row + i / kDirectionSquare, column + i % kDirectionSquare)] =
-              found[static_cast<size_t>(i)];
-        }
-      }
-    }
-    return endings;
-  }
-
-  static bool OnBoundary(const std::vector<Ending>& endings, int row, int column) {
-    const Ending& here = endings[CellIndex(row, column)];
-    const auto differs = [&](int r, int c) {
-      return r >= 0 && r < kHemisphereCells && c >= 0 && c < kHemisphereCells &&
-             here.DiffersFrom(endings[CellIndex(r, c)]);
-    };
-    return differs(row - 1, column) || differs(row + 1, column) || differs(row, column - 1) ||
-           differs(row, column + 1);
-  }
-
-  static Directions ToWorldAbout(const vec3& n, const DirectionSquare& square) {
-    // A horizontal tangent keeps the pattern upright.
-    const vec3 helper = std::abs(n.y) < 0.99f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
-    const vec3 t = glm::normalize(glm::cross(helper, n));
-    const vec3 b = glm::cross(n, t);
-    Directions soa;
-    for (int i = 0; i < kLanes; ++i) {
-      const vec3& local = square[static_cast<size_t>(i)];
-      const vec3 d = local.x * t + local.y * b + local.z * n;
-      soa.x[i] = d.x;
-      soa.y[i] = d.y;
-      soa.z[i] = d.z;
-    }
-    return soa;
-  }
-
-  std::array<Ending, kLanes> Cast(const BakePoint& point, const DirectionSquare& square) const {
-    const Directions soa = ToWorldAbout(point.n_W, square);
-    RayPacket packet;
-    SetRays(packet, point.p_W + offset_m_ * point.n_W, soa);
-    std::array<Ending, kLanes> endings;
-    for (Ending& ending : endings) ending.transmittance = 1.0f;
-    scene_.IntersectThroughPanes(
-        FirstLanes(kLanes), packet, Coherence::kCoherent,
-        [&](const LaneMask& panes, const RayPacket& at_panes) {
-          const Lanes<float> reflectance = scene_.ReflectancesHit(panes, at_panes);
-          for (int i = 0; i < kLanes; ++i) {
-            endings[static_cast<size_t>(i)].transmittance *= 1.0f - reflectance[i];
-          }
-        });
-    const auto triangle_count = static_cast<uint32_t>(scene_.opaque().size());
-    const Lanes<uint32_t> sides = SidesHit(packet, triangle_count);
-    for (int i = 0; i < kLanes; ++i) {
-      Ending& ending = endings[static_cast<size_t>(i)];
-      ending.side = sides[i] < 2 * triangle_count ? sides[i] : kOpen;
-      ending.direction_W = {soa.x[i], soa.y[i], soa.z[i]};
-    }
-    return endings;
-  }
-
-  const TracedScene& scene_;
-  float offset_m_;
-  HemisphereDirections directions_;
-};
 
 // Whether no part of the scene lies before the plane through p with normal n.
 bool IsSupportingPlane(const TracedScene& scene, const vec3& p, const vec3& n) {
@@ -206,12 +27,108 @@ bool IsSupportingPlane(const TracedScene& scene, const vec3& p, const vec3& n) {
 // Comparisons of a position with a plane that are worth the rays they save.
 constexpr size_t kMostComparisons = 2'000'000'000;
 
+// The triangles that meet in each corner.
+class TrianglesAtCorners {
+ public:
+  explicit TrianglesAtCorners(const SharedCorners& shared) : first_(shared.corners.size() + 1, 0) {
+    for (const auto& ids : shared.of_triangle) {
+      for (const size_t id : ids) ++first_[id + 1];
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    triangles_.resize(first_.back());
+    std::vector<size_t> next(first_.begin(), first_.end() - 1);
+    for (uint32_t t = 0; t < shared.of_triangle.size(); ++t) {
+      for (const size_t id : shared.of_triangle[t]) triangles_[next[id]++] = t;
+    }
+  }
+
+  std::span<const uint32_t> At(size_t corner) const {
+    return std::span(triangles_).subspan(first_[corner], first_[corner + 1] - first_[corner]);
+  }
+
+ private:
+  std::vector<size_t> first_;
+  std::vector<uint32_t> triangles_;
+};
+
+// Finds where the light of a corner is baked: at the corner, or if that is hidden, as near to it on
+// its triangles as something can be seen.
+class VisiblePoints {
+ public:
+  VisiblePoints(const TriangleSoup& soup, const SharedCorners& shared,
+                const HemisphereCaster& caster)
+      : soup_(soup), shared_(shared), triangles_(shared), caster_(caster) {}
+
+  BakePoint Find(size_t corner, bool front) const {
+    const SharedCorner& c = shared_.corners[corner];
+    const BakePoint point = c.Side(front);
+    // All inside a body is hidden.
+    if (!front && caster_.BoundsBody(triangles_.At(corner).front())) return point;
+    const float near_m = kNear * SizeAt(corner);
+    if (!caster_.About(point, near_m).IsHidden()) return point;
+    std::optional<BakePoint> visible;
+    for (const vec3& p_W : Nearby(corner)) {
+      const BakePoint nearby{p_W, point.n_W};
+      const HemisphereCaster::Surroundings about = caster_.About(nearby, near_m);
+      if (about.IsFree()) return nearby;
+      if (!visible && !about.IsHidden()) visible = nearby;
+    }
+    return visible.value_or(point);  // If all is hidden, what it has is as good as anything.
+  }
+
+ private:
+  // What ends nearer than this part of a triangle's size lies on it.
+  static constexpr float kNear = 0.1f;
+  static constexpr size_t kMostTried = 64;
+
+  // The largest distance of the centroid of a triangle that meets here.
+  float SizeAt(size_t corner) const {
+    float size_m = 0.0f;
+    for (const uint32_t t : triangles_.At(corner)) {
+      size_m = std::max(size_m, glm::distance(Centroid(t), shared_.corners[corner].p_W));
+    }
+    return size_m;
+  }
+
+  // Points of the corner's triangles, the nearest first.
+  std::vector<vec3> Nearby(size_t corner) const {
+    std::vector<vec3> points;
+    for (const uint32_t t : triangles_.At(corner)) {
+      const vec3 centroid = Centroid(t);
+      for (int k = 0; k < 3; ++k) {
+        if (shared_.of_triangle[t][static_cast<size_t>(k)] != corner) continue;
+        for (const float part : {0.05f, 0.1f, 0.2f, 0.35f, 0.5f, 0.75f, 1.0f}) {
+          points.push_back(glm::mix(Position(t, k), centroid, part));
+        }
+      }
+    }
+    const vec3& p_W = shared_.corners[corner].p_W;
+    const auto distance = [&p_W](const vec3& q_W) { return glm::distance(p_W, q_W); };
+    std::ranges::stable_sort(points, {}, distance);
+    if (points.size() > kMostTried) points.resize(kMostTried);
+    return points;
+  }
+
+  vec3 Centroid(uint32_t triangle) const {
+    return (Position(triangle, 0) + Position(triangle, 1) + Position(triangle, 2)) / 3.0f;
+  }
+  const vec3& Position(uint32_t triangle, int k) const {
+    return soup_.positions_W[soup_.triangles[triangle][k]];
+  }
+
+  const TriangleSoup& soup_;
+  const SharedCorners& shared_;
+  TrianglesAtCorners triangles_;
+  const HemisphereCaster& caster_;
+};
+
 // Adds the points of all corners; returns those of each corner's front and back.
 std::vector<std::array<uint32_t, 2>> BakeCorners(const TracedScene& scene,
-                                                 const std::vector<SharedCorner>& corners,
-                                                 LightBake& bake) {
+                                                 const SharedCorners& shared, LightBake& bake) {
   constexpr uint32_t kObstructed = ~0u;
-  const Baker baker(scene);
+  const HemisphereCaster caster(scene);
+  const VisiblePoints visible(scene.opaque(), shared, caster);
+  const std::vector<SharedCorner>& corners = shared.corners;
   std::map<std::pair<uint32_t, bool>, uint32_t> view_of_plane;  // Of each plane's two sides.
   std::vector<std::array<uint32_t, 2>> points(corners.size(),
                                               {LightBake::kNoPoint, LightBake::kNoPoint});
@@ -220,28 +137,28 @@ std::vector<std::array<uint32_t, 2>> BakeCorners(const TracedScene& scene,
   size_t planes_left =
       kMostComparisons /
       std::max<size_t>(scene.opaque().positions_W.size() + scene.panes().positions_W.size(), 1);
-  const auto new_view = [&bake](const LightBake::OpenView& view) {
+  const auto new_view = [&bake](const OpenView& view) {
     bake.open_views.push_back(view);
     return static_cast<uint32_t>(bake.open_views.size() - 1);
   };
   for (size_t i = 0; i < corners.size(); ++i) {
     for (const bool front : {true, false}) {
       if (!front && corners[i].is_closed) continue;
-      const BakePoint point = corners[i].Side(front);
       uint32_t view = kObstructed;
       if (!corners[i].is_smooth) {
+        const BakePoint point = corners[i].Side(front);
         const auto [entry, is_new] =
             view_of_plane.try_emplace({corners[i].surface, front}, kObstructed);
         if (is_new && planes_left > 0 && planes_left-- > 0 &&
             IsSupportingPlane(scene, point.p_W, point.n_W)) {
-          entry->second = new_view(baker.UnobstructedView(point));
+          entry->second = new_view(caster.Unobstructed(point));
         }
         view = entry->second;
       }
       if (view == kObstructed) {
-        ViewTally tally = baker.ViewFrom(point);
-        view = new_view(tally.OpenView(point.n_W));
-        tally.AppendFactors(bake.factors);
+        const HemisphereView seen = caster.From(visible.Find(i, front));
+        view = new_view(seen.open);
+        bake.factors.insert(bake.factors.end(), seen.factors.begin(), seen.factors.end());
       }
       points[i][front ? 0 : 1] = static_cast<uint32_t>(bake.point_count());
       bake.open_view_of.push_back(view);
@@ -259,7 +176,7 @@ LightBake BakeLight(const TracedScene& scene, const std::vector<uint32_t>& surfa
   const SharedCorners shared =
       Thinned(FindSharedCorners(scene.opaque(), surfaces), most_points / 2);
   LightBake bake;
-  const auto points = BakeCorners(scene, shared.corners, bake);
+  const auto points = BakeCorners(scene, shared, bake);
   bake.corners.reserve(2 * shared.of_triangle.size());
   for (const std::array<size_t, 3>& ids : shared.of_triangle) {
     for (const size_t side : {size_t{0}, size_t{1}}) {

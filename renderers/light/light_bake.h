@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderers/light/sky_light.h"
+#include "renderers/light/hemisphere_view.h"
 #include "renderers/tracing/traced_scene.h"
 
 namespace fenestra {
@@ -24,17 +24,12 @@ namespace fenestra {
 /// ray each. Where neighbouring rays end differently, in the open or on a surface, 16 rays per cell
 /// follow. The error of the visible part is about 0.001, and 0.003 behind a pane that reaches to
 /// grazing angles. Panes count with their transmittance; their mirror images are left out.
+///
+/// A corner that no viewer can see, since it lies inside another body or under something that lies
+/// on its surface (see HemisphereCaster::About), has the light of the nearest point of its
+/// triangles that can be seen: its own would be interpolated over what is visible of them.
 struct LightBake {
   static constexpr uint32_t kNoPoint = ~0u;
-
-  struct OpenView {
-    std::array<float, kSkyPatches> sky{};
-    float ground = 0.0f;
-  };
-  struct FormFactor {
-    uint32_t side = 0;  ///< See SideIndex.
-    float w = 0.0f;
-  };
 
   /// The points at the three corners of each side (see SideIndex); kNoPoint inside closed bodies.
   std::vector<std::array<uint32_t, 3>> corners;

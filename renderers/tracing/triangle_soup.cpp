@@ -101,6 +101,47 @@ void JoinSmoothNeighbours(const TriangleSoup& soup, Groups& groups) {
   }
 }
 
+// The same number for equal positions.
+std::vector<uint32_t> Welded(const std::vector<glm::vec3>& positions) {
+  std::vector<uint32_t> order(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&positions](uint32_t i) {
+    const glm::vec3& p = positions[i];
+    return std::make_tuple(p.x, p.y, p.z);
+  };
+  std::ranges::sort(order, {}, key);
+  std::vector<uint32_t> number(positions.size());
+  for (size_t i = 0; i < order.size(); ++i) {
+    const bool is_same = i > 0 && key(order[i]) == key(order[i - 1]);
+    number[order[i]] = is_same ? number[order[i - 1]] : order[i];
+  }
+  return number;
+}
+
+// An edge of one triangle, from its lower to its higher position or back.
+struct HalfEdge {
+  uint32_t low;
+  uint32_t high;
+  int direction;
+  uint32_t triangle;
+};
+
+std::vector<HalfEdge> SortedHalfEdges(const TriangleSoup& soup) {
+  const std::vector<uint32_t> number = Welded(soup.positions_W);
+  std::vector<HalfEdge> edges;
+  edges.reserve(3 * soup.size());
+  for (uint32_t t = 0; t < soup.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const uint32_t a = number[soup.triangles[t][k]];
+      const uint32_t b = number[soup.triangles[t][(k + 1) % 3]];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1, t});
+    }
+  }
+  std::ranges::sort(edges, {},
+                    [](const HalfEdge& e) { return std::tie(e.low, e.high, e.triangle); });
+  return edges;
+}
+
 }  // namespace
 
 TriangleSoup MakeTriangleSoup(const Scene& scene, Material::Kind kind) {
@@ -130,6 +171,43 @@ std::vector<uint32_t> NumberSurfaces(const TriangleSoup& soup) {
     numbers[i] = root == i ? count++ : numbers[root];
   }
   return numbers;
+}
+
+std::vector<bool> BoundBodies(const TriangleSoup& soup) {
+  const std::vector<HalfEdge> edges = SortedHalfEdges(soup);
+  Groups components(soup.size());
+  std::vector<bool> at_border(soup.size(), false);
+  for (size_t first = 0, end = 0; first < edges.size(); first = end) {
+    int balance = 0;
+    for (end = first; end < edges.size() && edges[end].low == edges[first].low &&
+                      edges[end].high == edges[first].high;
+         ++end) {
+      balance += edges[end].direction;
+    }
+    for (size_t i = first; i < end; ++i) {
+      if (balance != 0) at_border[edges[i].triangle] = true;
+      if (balance == 0) components.Join(edges[first].triangle, edges[i].triangle);
+    }
+  }
+  // Volumes are those of the tetrahedra between the triangles and a corner of their component.
+  std::vector<double> six_volumes(soup.size(), 0.0);
+  std::vector<bool> has_border(soup.size(), false);
+  for (uint32_t t = 0; t < soup.size(); ++t) {
+    const uint32_t root = components.Find(t);
+    const glm::dvec3 origin = soup.positions_W[soup.triangles[root].x];
+    std::array<glm::dvec3, 3> p;
+    for (int k = 0; k < 3; ++k) {
+      p[static_cast<size_t>(k)] = glm::dvec3(soup.positions_W[soup.triangles[t][k]]) - origin;
+    }
+    six_volumes[root] += glm::dot(p[0], glm::cross(p[1], p[2]));
+    if (at_border[t]) has_border[root] = true;
+  }
+  std::vector<bool> bounds(soup.size());
+  for (uint32_t t = 0; t < soup.size(); ++t) {
+    const uint32_t root = components.Find(t);
+    bounds[t] = soup.is_closed[t] || (!has_border[root] && six_volumes[root] > 0.0);
+  }
+  return bounds;
 }
 
 }  // namespace fenestra

@@ -48,4 +48,14 @@ TriangleSoup MakeTriangleSoup(const Scene& scene, Material::Kind kind);
 /// same normals at its ends.
 std::vector<uint32_t> NumberSurfaces(const TriangleSoup& soup);
 
+/// Whether each triangle bounds a solid body on its back: it belongs to a closed mesh (see
+/// Mesh::closed), or its edges lead to triangles that together have no border and enclose a
+/// positive volume. Positions are the same if they are equal to the bit, in all meshes: the faces
+/// of a body may have materials of their own. So a ray that meets the back of such a triangle began
+/// inside the body, however many bodies touch or penetrate each other.
+///
+/// A surface has no border if each of its edges is passed as often in one direction as in the
+/// other: its winding number is then the same integer everywhere between its sheets.
+std::vector<bool> BoundBodies(const TriangleSoup& soup);
+
 }  // namespace fenestra

@@ -41,7 +41,7 @@ struct View {
 };
 
 View ViewOf(const LightBake& bake, size_t side, size_t corner) {
-  const LightBake::OpenView& view = bake.open_views[bake.open_view_of[bake.corners[side][corner]]];
+  const OpenView& view = bake.open_views[bake.open_view_of[bake.corners[side][corner]]];
   double sky = 0.0;
   for (const float s : view.sky) sky += static_cast<double>(s) / std::numbers::pi;
   return {sky, static_cast<double>(view.ground)};

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <set>
+#include <vector>
 
+#include "scenes/mesh/solid_bodies.h"
+#include "scenes/mesh/tessellation.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {
@@ -110,6 +114,63 @@ TEST(TriangleSoup, ASmoothFoldIsOneSurface) {
   const glm::vec3 middle = glm::normalize(glm::vec3(std::sin(0.15f), 0.0f, std::cos(0.15f)));
   smooth.normals_W = {{0, 0, 1}, middle, middle, {0, 0, 1}, middle, middle};
   EXPECT_EQ(SurfacesOf(Of({smooth})), 1u);
+}
+
+Mesh Cube(double low, double high) {
+  Mesh mesh{.name = "cube"};
+  const Eigen::Vector3d one = Eigen::Vector3d::Ones();
+  AddCuboid(CuboidOf({low * one, high * one}), 1, mesh);
+  return mesh;
+}
+
+Scene SceneOf(const std::vector<Mesh>& meshes) {
+  Scene scene;
+  scene.materials = {Grey(0.5f)};
+  scene.meshes = meshes;
+  return scene;
+}
+
+std::vector<bool> BoundsOf(const Scene& scene) {
+  return BoundBodies(MakeTriangleSoup(scene, Material::Kind::kLambert));
+}
+
+bool All(const std::vector<bool>& values) {
+  return std::ranges::all_of(values, [](bool value) { return value; });
+}
+bool None(const std::vector<bool>& values) {
+  return std::ranges::none_of(values, [](bool value) { return value; });
+}
+
+TEST(BoundBodies, HoldsForACubeHoweverItIsCut) {
+  EXPECT_TRUE(All(BoundsOf(SceneOf({Cube(-1.0, 1.0)}))));
+  EXPECT_TRUE(All(BoundsOf(Tessellated(SceneOf({Cube(-1.0, 1.3)}), 1000))));
+}
+
+TEST(BoundBodies, HoldsForCubesThatTouchOrPenetrate) {
+  EXPECT_TRUE(All(BoundsOf(SceneOf({Cube(-1.0, 1.0), Cube(0.5, 2.0), Cube(1.0, 2.0)}))));
+}
+
+TEST(BoundBodies, HoldsForABodyWhoseFacesAreDifferentMeshes) {
+  const Mesh cube = Cube(-1.0, 1.0);
+  Mesh top = cube;
+  Mesh rest = cube;
+  top.triangles.resize(2);
+  rest.triangles.erase(rest.triangles.begin(), rest.triangles.begin() + 2);
+  EXPECT_TRUE(All(BoundsOf(SceneOf({top, rest}))));
+  EXPECT_TRUE(None(BoundsOf(SceneOf({rest}))));  // An open box.
+}
+
+TEST(BoundBodies, HoldsForNoSheetAndNothingInsideOut) {
+  EXPECT_TRUE(None(BoundsOf(SceneOf({UprightRectangle(-1, -1, 1, 1, 0, 0)}))));
+  Mesh room = Cube(-1.0, 1.0);
+  for (glm::uvec3& t : room.triangles) std::swap(t.y, t.z);
+  EXPECT_TRUE(None(BoundsOf(SceneOf({room}))));
+}
+
+TEST(BoundBodies, TakesTheWordOfAClosedMesh) {
+  Mesh sheet = UprightRectangle(-1, -1, 1, 1, 0, 0);
+  sheet.closed = true;
+  EXPECT_TRUE(All(BoundsOf(SceneOf({sheet}))));
 }
 
 }  // namespace

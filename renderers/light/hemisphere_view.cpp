@@ -1,0 +1,227 @@
+#include "renderers/light/hemisphere_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "renderers/light/lane_kernels.h"
+#include "renderers/tracing/triangle_soup.h"
+
+namespace fenestra {
+namespace {
+
+using glm::vec3;
+
+// Transmittances that differ by more than this end differently; what a pane does varies less.
+constexpr float kSameTransmittance = 0.1f;
+constexpr uint32_t kOpen = ~0u;
+
+// Of sixteen rays. From outside, they meet backs of bodies only where rounding lets one slip
+// between two that touch; from inside all do but those that meet another body first.
+constexpr int kMostBacks = 1;
+// A point in an edge of two faces has half of its hemisphere near it; in a sharper one more.
+constexpr int kMostNear = 12;
+// At the rim of a sheet on the surface, half of them end on it.
+constexpr int kNearOfFree = 2;
+
+size_t CellIndex(int row, int column, int side = kHemisphereCells) {
+  return static_cast<size_t>(row * side + column);
+}
+
+Directions ToWorldAbout(const vec3& n, const DirectionSquare& square) {
+  // A horizontal tangent keeps the pattern upright.
+  const vec3 helper = std::abs(n.y) < 0.99f ? vec3(0.0f, 1.0f, 0.0f) : vec3(1.0f, 0.0f, 0.0f);
+  const vec3 t = glm::normalize(glm::cross(helper, n));
+  const vec3 b = glm::cross(n, t);
+  Directions soa;
+  for (int i = 0; i < kLanes; ++i) {
+    const vec3& local = square[static_cast<size_t>(i)];
+    const vec3 d = local.x * t + local.y * b + local.z * n;
+    soa.x[i] = d.x;
+    soa.y[i] = d.y;
+    soa.z[i] = d.z;
+  }
+  return soa;
+}
+
+}  // namespace
+
+// The end of a ray.
+struct HemisphereCaster::Ending {
+  uint32_t side = kOpen;  // The side of the surface that was hit.
+  float distance_m = 0.0f;
+  float transmittance = 0.0f;
+  vec3 direction_W{0.0f};
+
+  bool DiffersFrom(const Ending& other) const {
+    if ((side == kOpen) != (other.side == kOpen)) return true;
+    if (std::abs(transmittance - other.transmittance) > kSameTransmittance) return true;
+    return side == kOpen && (direction_W.y > 0.0f) != (other.direction_W.y > 0.0f);
+  }
+};
+
+// Collects the ends of the rays from one point, each standing for a part of the hemisphere.
+class HemisphereCaster::Tally {
+ public:
+  void Add(const Ending& ending, float weight) {
+    if (ending.side != kOpen) {
+      factors_.push_back({ending.side, weight * ending.transmittance});
+    } else if (ending.direction_W.y > 0.0f) {
+      view_.sky[static_cast<size_t>(SkyPatchOf(ending.direction_W))] +=
+          weight * ending.transmittance;
+      unobstructed_sky_ += weight;
+    } else {
+      view_.ground += weight * ending.transmittance;
+      unobstructed_ground_ += weight;
+    }
+    if (ending.side != kOpen) {
+      (ending.direction_W.y > 0.0f ? unobstructed_sky_ : unobstructed_ground_) += weight;
+    }
+    total_ += weight;
+  }
+
+  // The quadrature's parts above and below the horizon are scaled to their exact values for n.
+  fenestra::OpenView OpenView(const vec3& n) const {
+    const float sky = 0.5f * (1.0f + n.y);
+    const float ground = 0.5f * (1.0f - n.y);
+    fenestra::OpenView view = view_;
+    const float to_sky =
+        unobstructed_sky_ > 0.0f ? std::numbers::pi_v<float> * sky / unobstructed_sky_ : 0.0f;
+    for (float& s : view.sky) s *= to_sky;
+    view.ground *= unobstructed_ground_ > 0.0f ? ground / unobstructed_ground_ : 0.0f;
+    return view;
+  }
+
+  // One form factor per side, in the order of the sides.
+  std::vector<FormFactor> Factors() {
+    std::vector<FormFactor> out;
+    std::ranges::sort(factors_, {}, &FormFactor::side);
+    for (size_t i = 0; i < factors_.size();) {
+      FormFactor sum{factors_[i].side, 0.0f};
+      for (; i < factors_.size() && factors_[i].side == sum.side; ++i) sum.w += factors_[i].w;
+      sum.w /= total_;
+      out.push_back(sum);
+    }
+    return out;
+  }
+
+ private:
+  fenestra::OpenView view_;
+  float unobstructed_sky_ = 0.0f;
+  float unobstructed_ground_ = 0.0f;
+  float total_ = 0.0f;
+  std::vector<FormFactor> factors_;
+};
+
+namespace {
+
+// The endings in a square grid over the hemisphere; whether a neighbour differs.
+template <typename Ending>
+bool OnBoundary(const std::vector<Ending>& endings, int side, int row, int column) {
+  const Ending& here = endings[CellIndex(row, column, side)];
+  const auto differs = [&](int r, int c) {
+    return r >= 0 && r < side && c >= 0 && c < side &&
+           here.DiffersFrom(endings[CellIndex(r, c, side)]);
+  };
+  return differs(row - 1, column) || differs(row + 1, column) || differs(row, column - 1) ||
+         differs(row, column + 1);
+}
+
+}  // namespace
+
+HemisphereCaster::HemisphereCaster(const TracedScene& scene)
+    : scene_(scene),
+      offset_m_(scene.SurfaceOffset(vec3(0.0f))),
+      directions_(MakeHemisphereDirections()),
+      bounds_body_(BoundBodies(scene.opaque())) {}
+
+HemisphereView HemisphereCaster::From(const BakePoint& point) const {
+  const std::vector<Ending> coarse = CastTiles(point);
+  Tally tally;
+  for (int row = 0; row < kHemisphereCells; ++row) {
+    for (int column = 0; column < kHemisphereCells; ++column) {
+      const size_t cell = CellIndex(row, column);
+      if (!OnBoundary(coarse, kHemisphereCells, row, column)) {
+        tally.Add(coarse[cell], static_cast<float>(kLanes));
+        continue;
+      }
+      for (const Ending& ending : Cast(point, directions_.cells[cell])) tally.Add(ending, 1.0f);
+    }
+  }
+  return {.open = tally.OpenView(point.n_W), .factors = tally.Factors()};
+}
+
+OpenView HemisphereCaster::Unobstructed(const BakePoint& point) const {
+  Tally tally;
+  for (const DirectionSquare& square : directions_.cells) {
+    const Directions directions = ToWorldAbout(point.n_W, square);
+    for (int i = 0; i < kLanes; ++i) {
+      tally.Add({.transmittance = 1.0f,
+                 .direction_W = {directions.x[i], directions.y[i], directions.z[i]}},
+                1.0f);
+    }
+  }
+  return tally.OpenView(point.n_W);
+}
+
+bool HemisphereCaster::Surroundings::IsHidden() const {
+  return backs > kMostBacks || near > kMostNear;
+}
+
+bool HemisphereCaster::Surroundings::IsFree() const {
+  return backs <= kMostBacks && near <= kNearOfFree;
+}
+
+HemisphereCaster::Surroundings HemisphereCaster::About(const BakePoint& point, float near_m) const {
+  Surroundings about;
+  for (const Ending& ending : Cast(point, directions_.whole)) {
+    if (ending.side == kOpen) continue;
+    if (ending.side % 2 == 1 && bounds_body_[ending.side / 2]) ++about.backs;
+    if (ending.distance_m < near_m) ++about.near;
+  }
+  return about;
+}
+
+std::vector<HemisphereCaster::Ending> HemisphereCaster::CastTiles(const BakePoint& point) const {
+  std::vector<Ending> endings(static_cast<size_t>(kHemisphereCells * kHemisphereCells));
+  size_t tile = 0;
+  for (int row = 0; row < kHemisphereCells; row += kDirectionSquare) {
+    for (int column = 0; column < kHemisphereCells; column += kDirectionSquare) {
+      const auto found = Cast(point, directions_.tiles[tile++]);
+      for (int i = 0; i < kLanes; ++i) {
+        endings[CellIndex(row + i / kDirectionSquare, column + i % kDirectionSquare)] =
+            found[static_cast<size_t>(i)];
+      }
+    }
+  }
+  return endings;
+}
+
+std::array<HemisphereCaster::Ending, kLanes> HemisphereCaster::Cast(
+    const BakePoint& point, const DirectionSquare& square) const {
+  const Directions soa = ToWorldAbout(point.n_W, square);
+  RayPacket packet;
+  SetRays(packet, point.p_W + offset_m_ * point.n_W, soa);
+  std::array<Ending, kLanes> endings;
+  for (Ending& ending : endings) ending.transmittance = 1.0f;
+  scene_.IntersectThroughPanes(
+      FirstLanes(kLanes), packet, Coherence::kCoherent,
+      [&](const LaneMask& panes, const RayPacket& at_panes) {
+        const Lanes<float> reflectance = scene_.ReflectancesHit(panes, at_panes);
+        for (int i = 0; i < kLanes; ++i) {
+          endings[static_cast<size_t>(i)].transmittance *= 1.0f - reflectance[i];
+        }
+      });
+  const auto triangle_count = static_cast<uint32_t>(scene_.opaque().size());
+  const Lanes<uint32_t> sides = SidesHit(packet, triangle_count);
+  for (int i = 0; i < kLanes; ++i) {
+    Ending& ending = endings[static_cast<size_t>(i)];
+    ending.side = sides[i] < 2 * triangle_count ? sides[i] : kOpen;
+    ending.distance_m = packet.ray.tfar[i];
+    ending.direction_W = {soa.x[i], soa.y[i], soa.z[i]};
+  }
+  return endings;
+}
+
+}  // namespace fenestra
