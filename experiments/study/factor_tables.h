@@ -31,6 +31,8 @@ void AddStereoFactors(FactorTable& table);
 void AddStereoImageFactors(FactorTable& table);
 /// The depth and the colour camera of the RGB-D sensor.
 void AddRgbdFactors(FactorTable& table);
+/// Its colour camera.
+void AddRgbdColorFactors(FactorTable& table);
 
 /// The velocity and the rates of turn of one sensor's rig, which `of` finds in the settings. Names
 /// begin with that of the sensor: "stereo_speed_right_m_s".

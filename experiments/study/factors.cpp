@@ -28,6 +28,7 @@ const GroupedTable& AllFactors() {
     factors.Add(FactorGroup::kStereo, AddStereoFactors);
     factors.Add(FactorGroup::kStereo, AddStereoImageFactors);
     factors.Add(FactorGroup::kRgbd, AddRgbdFactors);
+    factors.Add(FactorGroup::kRgbd, AddRgbdColorFactors);
     return factors;
   }();
   return all;
