@@ -25,5 +25,6 @@ void AddPoolCommand(Command program);
 void AddFixturesCommand(Command program);
 void AddListCommand(Command program);
 void AddStudyCommand(Command program);
+void AddValidateCommand(Command program);
 
 }  // namespace fenestra::cli

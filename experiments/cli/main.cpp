@@ -76,6 +76,7 @@ int Main(int argc, char** argv) {
   AddFixturesCommand(program);
   AddStudyCommand(program);
   AddListCommand(program);
+  AddValidateCommand(program);
   return parser.Run(argc, argv);
 }
 

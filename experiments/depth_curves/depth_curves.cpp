@@ -65,24 +65,6 @@ DepthCurves::Lateral BordersOf(const DepthImage& depth, double between_m) {
   return {.angle_rad = 0.0, .left_px = RoughnessOf(left), .right_px = RoughnessOf(right)};
 }
 
-std::vector<DepthCurves::Lateral> MeasureLateral(const StructuredLightOptions& options,
-                                                 const RandomStream& stream) {
-  constexpr double kPlate_m = 1.5;
-  constexpr double kStandOff_m = 0.8;
-  std::vector<DepthCurves::Lateral> curve;
-  for (const double angle_deg : {0.0, 20.0, 40.0, 50.0, 60.0, 70.0}) {
-    const WallSetup wall(
-        InFullResolution(options), WallSetup::kWhite,
-        {.stand_off_m = kStandOff_m, .half_width_m = 0.35, .turn_rad = angle_deg * kDegree},
-        stream);
-    DepthCurves::Lateral at =
-        BordersOf(wall.See({.distance_m = kPlate_m + kStandOff_m}), kPlate_m + 0.6 * kStandOff_m);
-    at.angle_rad = angle_deg * kDegree;
-    curve.push_back(at);
-  }
-  return curve;
-}
-
 // Between the depths around z that occur on a wall at 35°. Seen from several distances, so that
 // even in an image of few columns no depth is left out.
 double StepAt(const StructuredLightOptions& options, double z_m, const RandomStream& stream) {
@@ -151,6 +133,24 @@ double HalfPoint(const std::vector<cv::Point2d>& x_and_share) {
     return std::exp((1.0 - t) * std::log(a.x) + t * std::log(b.x));
   }
   return NAN;
+}
+
+std::vector<DepthCurves::Lateral> MeasureLateral(const StructuredLightOptions& options,
+                                                 const RandomStream& stream) {
+  constexpr double kPlate_m = 1.5;
+  constexpr double kStandOff_m = 0.8;
+  std::vector<DepthCurves::Lateral> curve;
+  for (const double angle_deg : {0.0, 20.0, 40.0, 50.0, 60.0, 70.0}) {
+    const WallSetup wall(
+        InFullResolution(options), WallSetup::kWhite,
+        {.stand_off_m = kStandOff_m, .half_width_m = 0.35, .turn_rad = angle_deg * kDegree},
+        stream);
+    DepthCurves::Lateral at =
+        BordersOf(wall.See({.distance_m = kPlate_m + kStandOff_m}), kPlate_m + 0.6 * kStandOff_m);
+    at.angle_rad = angle_deg * kDegree;
+    curve.push_back(at);
+  }
+  return curve;
 }
 
 DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const RandomStream& stream) {

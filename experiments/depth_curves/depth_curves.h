@@ -65,6 +65,10 @@ struct DepthCurves {
 
 DepthCurves MeasureDepthCurves(const StructuredLightOptions& options, const RandomStream& stream);
 
+/// The part of it on borders, by angle.
+std::vector<DepthCurves::Lateral> MeasureLateral(const StructuredLightOptions& options,
+                                                 const RandomStream& stream);
+
 /// Where the share of valid pixels falls through one half, between the samples on either side, in
 /// proportion of x's logarithm; NaN if it does not.
 double HalfPoint(const std::vector<cv::Point2d>& x_and_share);

@@ -29,10 +29,26 @@ constexpr const char* kStudy =
     "  distance_m: [1.4]\n";
 
 TEST(CommandLineTest, HelpIsEverywhereAndHasAnExample) {
-  for (const char* command :
-       {"", "run", "render", "replay", "detect", "detect stereo", "detect rgbd", "list", "export",
-        "calibrate", "calibrate stereo", "emva", "depth", "bound", "merge", "submit", "report",
-        "score", "serve"}) {
+  for (const char* command : {"",
+                              "run",
+                              "render",
+                              "replay",
+                              "detect",
+                              "detect stereo",
+                              "detect rgbd",
+                              "list",
+                              "export",
+                              "calibrate",
+                              "calibrate stereo",
+                              "emva",
+                              "depth",
+                              "bound",
+                              "merge",
+                              "submit",
+                              "report",
+                              "score",
+                              "serve",
+                              "validate"}) {
     const ProgramOutput outcome = Fenestra(std::string(command) + " --help");
     EXPECT_EQ(outcome.exit_code, 0) << command;
     EXPECT_THAT(outcome.text, HasSubstr("Example")) << command;

@@ -36,6 +36,10 @@ const std::vector<WritingCommand>& WritingCommands() {
        "emva OUT --exposures 10 --frames 16 --width-px 64 --height-px 48",
        {"report.md", "results.json", "photon_transfer.png", "emva1288.txt"}},
       {"depth", "depth OUT", {"depth_curves.md", "depth_curves.png"}, false},
+      {"validate",
+       "validate --recordings " FENESTRA_SOURCE_DIR "/tests/data --out OUT",
+       {"validation.md"},
+       false},
       {"calibrate",
        "calibrate stereo --left WORK/sequence/00000/left.png --right "
        "WORK/sequence/00000/right.png --corners 9x6 --square-mm 30 --out OUT",

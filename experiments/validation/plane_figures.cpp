@@ -1,4 +1,4 @@
-#include "tests/sim/structured_light/recorded_planes.h"
+#include "experiments/validation/plane_figures.h"
 
 #include <Eigen/LU>
 #include <Eigen/QR>
@@ -7,32 +7,15 @@
 #include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <set>
 
-#include "core/io/image_io.h"
 #include "core/random/random_stream.h"
+#include "experiments/statistics/moments.h"
 
-namespace fenestra::testing {
+namespace fenestra::validation {
 namespace {
 
 constexpr int kBlock = 32;
-constexpr double kStepOfKinect = 2.92e-3;
-constexpr double kStepOfTum = 2.71e-3;  // The benchmark scales its depths.
-
-RecordedPlane Pcl(const std::string& frame, const std::string& what,
-                  std::vector<cv::Point> polygon) {
-  return {frame + " " + what,
-          "depth-pcl/" + frame + "-depth.png",
-          1e-3,
-          525.0,
-          {319.5, 239.5},
-          kStepOfKinect,
-          std::move(polygon)};
-}
-
-RecordedPlane Tum(const std::string& what, std::vector<cv::Point> polygon) {
-  return {"freiburg2 " + what, "rgbd-tum/second_depth.png", 2e-4, 520.9, {325.1, 249.7},
-          kStepOfTum,          std::move(polygon)};
-}
 
 // Residuals of 1/z to the plane that fits a block best; none where too few pixels return.
 std::optional<cv::Mat1d> BlockResiduals(const DepthView& view, const cv::Rect& block) {
@@ -119,41 +102,23 @@ Estimated CorrelationOf(const std::vector<cv::Mat1d>& blocks, cv::Point lag) {
   return {all.Correlation(), std::sqrt((count - 1.0) / count * squares)};
 }
 
+// With the standard error of a normal sample's median.
+Estimated MedianOf(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  const double median = *middle;
+  if (values.size() < 2) return {median, std::nan("")};
+  return {median, std::sqrt(0.5 * std::numbers::pi) * StandardErrorOfMean(values)};
+}
+
+// Matched blocks have nine rows: no more than every ninth row is independent.
+Estimated MeanOfRows(const std::vector<double>& rows) {
+  constexpr double kBlockRows = 9.0;
+  const double error = rows.size() < 2 ? 0.0 : StandardErrorOfMean(rows);
+  return {Mean(rows), std::sqrt(kBlockRows) * error};
+}
+
 }  // namespace
-
-const std::vector<RecordedPlane>& RecordedPlanes() {
-  static const std::vector<RecordedPlane> planes = {
-      Pcl("person", "wall", {{40, 40}, {440, 40}, {430, 140}, {170, 150}, {150, 270}, {40, 300}}),
-      Pcl("person", "cupboard", {{372, 195}, {475, 195}, {475, 425}, {372, 425}}),
-      Pcl("capture0003", "wall", {{370, 40}, {590, 40}, {590, 185}, {370, 185}}),
-      Pcl("capture0005", "wall", {{510, 40}, {590, 40}, {590, 175}, {510, 175}}),
-      Pcl("five_people", "back wall", {{230, 85}, {460, 85}, {460, 98}, {230, 98}}),
-      Pcl("five_people", "floor", {{285, 345}, {330, 345}, {330, 470}, {290, 470}}),
-      Pcl("region_growing_rgb", "near floor",
-          {{20, 470},
-           {590, 470},
-           {590, 200},
-           {560, 140},
-           {470, 120},
-           {445, 290},
-           {300, 290},
-           {300, 200},
-           {20, 260}}),
-      Pcl("region_growing_rgb", "far floor",
-          {{325, 60}, {590, 60}, {590, 140}, {470, 120}, {330, 110}}),
-      Tum("floor", {{458, 150}, {600, 160}, {610, 360}, {555, 255}, {455, 220}}),
-      Tum("floor beyond", {{458, 118}, {600, 128}, {600, 160}, {458, 150}}),
-      Tum("screen", {{228, 120}, {360, 120}, {360, 225}, {228, 225}})};
-  return planes;
-}
-
-DepthView ViewOf(const RecordedPlane& recorded) {
-  const cv::Mat1w raw =
-      ReadDepthImage(std::filesystem::path(FENESTRA_SOURCE_DIR) / "tests/data" / recorded.file);
-  DepthView view{cv::Mat1d(), recorded.focal_px, recorded.centre_px};
-  raw.convertTo(view.z_m, CV_64F, recorded.unit_m);
-  return view;
-}
 
 Eigen::Vector3d FitPlane(const DepthView& view, const cv::Mat1b& mask) {
   constexpr double kTolerance = 3.5e-3;  // [1/m]: little more than a step.
@@ -235,13 +200,28 @@ PlaneFigures Measure(const DepthView& view, const cv::Mat1b& mask, const Eigen::
   }
   figures.blocks = static_cast<int>(blocks.size());
   if (blocks.empty()) return figures;
-  std::nth_element(noise.begin(), noise.begin() + noise.size() / 2, noise.end());
-  figures.noise_steps = noise[noise.size() / 2];
+  figures.noise_steps = MedianOf(std::move(noise));
   for (int lag = 1; lag <= 3; ++lag) {
     figures.along_rows[static_cast<size_t>(lag - 1)] = CorrelationOf(blocks, {lag, 0});
     figures.along_columns[static_cast<size_t>(lag - 1)] = CorrelationOf(blocks, {0, lag});
   }
   return figures;
+}
+
+double StepOfDepths(const DepthView& view) {
+  std::set<double> levels;
+  for (const double z_m : view.z_m) {
+    if (z_m >= 1.5 && z_m <= 4.0) levels.insert(1.0 / z_m);
+  }
+  if (levels.size() < 3) return std::nan("");
+  std::vector<double> gaps;
+  for (auto next = std::next(levels.begin()); next != levels.end(); ++next) {
+    gaps.push_back(*next - *std::prev(next));
+  }
+  const double gap = MedianOf(gaps).value;
+  double steps = 0.0;
+  for (const double g : gaps) steps += std::round(g / gap);
+  return (*levels.rbegin() - *levels.begin()) / steps;
 }
 
 double SmoothError(const DepthView& view, const cv::Mat1b& mask, double step) {
@@ -258,25 +238,41 @@ double SmoothError(const DepthView& view, const cv::Mat1b& mask, double step) {
       ++count;
     }
   }
-  const double noise = Measure(view, mask, plane, step).noise_steps;
+  const double noise = Measure(view, mask, plane, step).noise_steps.value;
   return std::sqrt(std::max(0.0, squares / count / (step * step) - noise * noise));
 }
 
-cv::Mat1b MaskIn(const RecordedPlane& recorded, const DepthView& view) {
-  std::vector<cv::Point> polygon;
-  for (const cv::Point& p : recorded.polygon) {
-    const Eigen::Vector2d ray =
-        (Eigen::Vector2d(p.x, p.y) - recorded.centre_px) / recorded.focal_px;
-    const Eigen::Vector2d pixel = view.centre_px + view.focal_px * ray;
-    polygon.emplace_back(static_cast<int>(std::lround(pixel.x())),
-                         static_cast<int>(std::lround(pixel.y())));
+OutlineHoles MeasureOutlines(const DepthView& view, cv::Range rows, double nearer_than_m) {
+  std::vector<double> left;
+  std::vector<double> both;
+  std::vector<double> near_m;
+  std::vector<double> beyond_m;
+  std::vector<double> half_px;
+  for (int v = rows.start; v < rows.end; ++v) {
+    const cv::Mat1d row = view.z_m.row(v);
+    const auto is_near = [&](double z_m) { return z_m > 0.0 && z_m < nearer_than_m; };
+    const int first = static_cast<int>(std::find_if(row.begin(), row.end(), is_near) - row.begin());
+    if (first == row.cols) continue;
+    int last = row.cols - 1;
+    while (!is_near(row(0, last))) --last;
+    int before = first - 1;
+    while (before >= 0 && row(0, before) == 0.0) --before;
+    int after = last + 1;
+    while (after < row.cols && row(0, after) == 0.0) ++after;
+    if (before < 0 || after == row.cols) continue;
+    left.push_back(first - before - 1);
+    both.push_back(left.back() + after - last - 1);
+    near_m.push_back(0.5 * (row(0, first) + row(0, last)));
+    beyond_m.push_back(0.5 * (row(0, before) + row(0, after)));
+    half_px.push_back(0.5 * (last - first + 1));
   }
-  cv::Mat1b mask = cv::Mat1b::zeros(view.z_m.size());
-  cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{polygon}, 255);
-  // Blocks of pixels beyond leave the image; of registered ones elsewhere than of others.
-  constexpr int kBorder_px = 8;
-  cv::rectangle(mask, {0, 0}, {mask.cols - 1, mask.rows - 1}, 0, 2 * kBorder_px);
-  return mask;
+  if (left.empty()) return {};
+  return {static_cast<int>(left.size()),
+          MeanOfRows(left),
+          MeanOfRows(both),
+          Mean(near_m),
+          Mean(beyond_m),
+          Mean(half_px)};
 }
 
-}  // namespace fenestra::testing
+}  // namespace fenestra::validation

@@ -1,40 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <filesystem>
+#include <array>
 #include <map>
 #include <opencv2/core.hpp>
-#include <string>
 #include <utility>
-#include <vector>
 
-namespace fenestra::testing {
+#include "experiments/validation/recorded_planes.h"
 
-/// A part of a recorded depth image that sees one plane, by a polygon drawn by hand [px].
-struct RecordedPlane {
-  std::string name;
-  std::string file;  ///< In tests/data.
-  double unit_m;
-  double focal_px;
-  Eigen::Vector2d centre_px;
-  double step;  ///< Distance of two depths over z² [1/m].
-  std::vector<cv::Point> polygon;
-};
-
-/// Walls, a screen and floors, by Kinects with OpenNI's driver.
-const std::vector<RecordedPlane>& RecordedPlanes();
-
-/// A depth image as depths [m], 0 without return, with the pinhole that took it.
-struct DepthView {
-  cv::Mat1d z_m;
-  double focal_px;
-  Eigen::Vector2d centre_px;
-
-  Eigen::Vector3d RayOf(int u, int v) const {
-    return {(u - centre_px.x()) / focal_px, (v - centre_px.y()) / focal_px, 1.0};
-  }
-};
-DepthView ViewOf(const RecordedPlane& recorded);
+namespace fenestra::validation {
 
 /// p: 1/z = p · ray. By random samples of three pixels and least squares.
 Eigen::Vector3d FitPlane(const DepthView& view, const cv::Mat1b& mask);
@@ -56,18 +30,31 @@ struct PlaneFigures {
   };
   std::map<std::pair<double, double>, Bin> bins;  ///< By least z [m] and least incidence [deg].
   int blocks = 0;
-  double noise_steps = 0.0;
+  Estimated noise_steps;
   std::array<Estimated, 3> along_rows{};
   std::array<Estimated, 3> along_columns{};
 };
 PlaneFigures Measure(const DepthView& view, const cv::Mat1b& mask, const Eigen::Vector3d& plane,
                      double step);
 
+/// Distance of two depths over z²: that of neighbouring levels of 1/z which occur from 1.5 to 4 m
+/// [1/m]. Domain: levels there, of which few are left out.
+double StepOfDepths(const DepthView& view);
+
 /// RMS of 1/z around the plane that fits all pixels of a mask, less what blocks of 32 x 32 pixels
 /// have around planes of their own [steps]: smooth errors of depth, beside noise.
 double SmoothError(const DepthView& view, const cv::Mat1b& mask, double step);
 
-/// The recorded polygon in a view of another focal length.
-cv::Mat1b MaskIn(const RecordedPlane& recorded, const DepthView& view);
+/// Holes at the outlines of something near, in rows of a registered depth image: means over the
+/// rows that have both.
+struct OutlineHoles {
+  int rows = 0;
+  Estimated left_px;
+  Estimated both_px;
+  double near_m = 0.0;         ///< Depth at the outlines.
+  double beyond_m = 0.0;       ///< Depth past the holes.
+  double half_width_px = 0.0;  ///< Of what is near.
+};
+OutlineHoles MeasureOutlines(const DepthView& view, cv::Range rows, double nearer_than_m);
 
-}  // namespace fenestra::testing
+}  // namespace fenestra::validation
