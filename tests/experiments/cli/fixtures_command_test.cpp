@@ -27,6 +27,7 @@ class FixturesCommandTest : public ::testing::Test {
                         "name: small\nrepetitions: 2\nsensors: [stereo, rgbd]\n"
                         "detectors: [paper-stereo, paper-rgbd]\n"
                         "factors: {distance_m: [2, 3], stereo_width_px: 320,\n"
+                        "  stereo_calibration_free_k3: false,\n"
                         "  stereo_height_px: 240, yaw_deg: {uniform: [-2, 2]}}\n")
                  .string();
   }
