@@ -50,9 +50,10 @@ RegisteredImages DepthRegistration::Register(const RgbdObservation& observation)
 cv::Mat3b DepthRegistration::ResampleColor(const cv::Mat3b& color) const {
   cv::Mat3b resampled = color;
   if (!undistortion_.empty()) {
+    // What the lens does not see is as its border: black would be taken for dark paint.
     cv::Mat3b undistorted;
     cv::remap(color, undistorted, undistortion_, cv::noArray(), cv::INTER_LINEAR,
-              cv::BORDER_CONSTANT);
+              cv::BORDER_REPLICATE);
     resampled = undistorted;
   }
   if (resampled.size() == SizeOf(working_)) return resampled;

@@ -110,7 +110,7 @@ Detection PlaneRgbdDetector::Detect(const Observation& observation, StageLog& lo
   cv::Mat1b straight = grey;
   if (!undistortion_.empty()) {
     straight = cv::Mat1b();
-    cv::remap(grey, straight, undistortion_, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+    cv::remap(grey, straight, undistortion_, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   }
   const std::vector<DepthPoint> points = reader_.Read(seen.depth);
 

@@ -154,6 +154,21 @@ TEST(DepthRegistration, FreesColourOfDistortion) {
   }
 }
 
+TEST(DepthRegistration, WhatTheLensDoesNotSeeIsNotDark) {
+  // A lens whose corners see less than a pinhole's would.
+  CameraParameters parameters = KinectCalibration().color.parameters();
+  parameters.distortion = {.k1 = 0.3};
+  RgbdCalibration calibration = KinectCalibration();
+  calibration.color = CameraModel(parameters);
+  const cv::Mat3b grey(parameters.height_px, parameters.width_px, cv::Vec3b(90, 90, 90));
+  const DepthImage depth{.raw = cv::Mat1w(calibration.depth.height_px(),
+                                          calibration.depth.width_px(), uint16_t{2000})};
+  const RegisteredImages images = DepthRegistration(calibration).Register({grey, depth});
+  EXPECT_EQ(
+      cv::norm(images.color, cv::Mat3b(images.color.size(), cv::Vec3b(90, 90, 90)), cv::NORM_INF),
+      0.0);
+}
+
 TEST(DepthRegistration, RefusesImagesThatDoNotFitTheCalibration) {
   const RgbdCalibration calibration = KinectCalibration();
   const DepthRegistration registration(calibration);
