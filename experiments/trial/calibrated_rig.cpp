@@ -9,6 +9,7 @@
 #include "core/system/check.h"
 #include "experiments/study/factors.h"
 #include "experiments/trial/board_theory.h"
+#include "sim/camera/built_camera.h"
 
 namespace fenestra {
 namespace {
@@ -28,8 +29,7 @@ Eigen::MatrixXd ErrorsOfBoards(const StereoRig& rig, const CalibrationChoice& ch
 }
 
 StereoCalibration Perturbed(const StereoRig& rig, const CalibrationChoice& choice,
-                            const RandomStream& stream) {
-  const Eigen::MatrixXd errors = ErrorsOfBoards(rig, choice);
+                            const Eigen::MatrixXd& errors, const RandomStream& stream) {
   const RandomStream boards = stream.Child("boards");
   Eigen::VectorXd normals(errors.cols());
   for (Eigen::Index i = 0; i < normals.size(); ++i) {
@@ -56,20 +56,19 @@ CalibrationWithCovariance WithBoards(const StereoRig& rig, const CalibrationChoi
 }
 
 constexpr int kTurn = 2 * kCameraParameters;
-constexpr int kShift = kTurn + 3;
 
-// X_RL with a pose E of small turn and shift before it, E X_RL: that turns it, and shifts it by
-// turn x p_RL besides the shift.
+// Of a right camera that is turned and shifted.
 PairMatrix MovedRight(const Eigen::Vector3d& p_RL, double turn_rad, double shift_m) {
-  Eigen::Matrix3d by_turn = -CrossMatrix(p_RL);
   PairMatrix covariance = PairMatrix::Zero();
-  const double turn2 = turn_rad * turn_rad;
-  covariance.block<3, 3>(kTurn, kTurn).diagonal().setConstant(turn2);
-  covariance.block<3, 3>(kShift, kTurn) = turn2 * by_turn;
-  covariance.block<3, 3>(kTurn, kShift) = turn2 * by_turn.transpose();
-  covariance.block<3, 3>(kShift, kShift) =
-      turn2 * by_turn * by_turn.transpose() + shift_m * shift_m * Eigen::Matrix3d::Identity();
+  covariance.block<6, 6>(kTurn, kTurn) = MovedCovariance(p_RL, turn_rad, shift_m);
   return covariance;
+}
+
+// What boards leave with these errors (ErrorsOfBoards), and drift since then.
+PairMatrix PerturbedCovariance(const Eigen::Vector3d& p_RL, const CalibrationChoice& choice,
+                               const Eigen::MatrixXd& errors) {
+  return errors * errors.transpose() +
+         MovedRight(p_RL, choice.rotation_error_rad, choice.translation_error_m);
 }
 
 // The covariance of a rig that stands within its tolerances around its design.
@@ -78,17 +77,9 @@ PairMatrix OfTolerances(const StereoRigOptions& options) {
   if (options.as_designed) return covariance;
   const RigTolerances& t = options.tolerances;
   const StereoCalibration design = DesignOf(options);
-  const double focal_px = design.left.parameters().fx_px;
-  const Eigen::Matrix<double, 9, 1> parameters = design.left.ParameterVector();
   for (const int camera : {0, kCameraParameters}) {
-    // One focal length for both axes.
-    covariance.block<2, 2>(camera, camera)
-        .setConstant(t.focal_length * t.focal_length * focal_px * focal_px);
-    covariance.block<2, 2>(camera + 2, camera + 2)
-        .diagonal()
-        .setConstant(t.principal_point_px * t.principal_point_px);
-    covariance.block<5, 5>(camera + 4, camera + 4).diagonal() =
-        (t.distortion * parameters.tail<5>()).cwiseAbs2();
+    covariance.block<kCameraParameters, kCameraParameters>(camera, camera) =
+        BuiltCovariance(design.left, t.camera());
   }
   // Both cameras are turned and shifted; only the right one's turn moves the left camera in it.
   covariance += MovedRight(design.X_RL.translation(), t.rotation_rad, t.translation_m) +
@@ -112,8 +103,11 @@ CalibratedRig Calibrated(const StereoRig& rig, const CalibrationChoice& choice,
   switch (choice.source) {
     case CalibrationSource::kExact:
       return with_covariance(rig, rig.cameras());
-    case CalibrationSource::kPerturbed:
-      return with_covariance(rig, Perturbed(rig, choice, calibration));
+    case CalibrationSource::kPerturbed: {
+      const Eigen::MatrixXd errors = ErrorsOfBoards(rig, choice);
+      return {rig, Perturbed(rig, choice, errors, calibration),
+              PerturbedCovariance(rig.cameras().X_RL.translation(), choice, errors)};
+    }
     case CalibrationSource::kBoards:
       return with_boards(rig);
     case CalibrationSource::kStale:
@@ -132,11 +126,8 @@ std::optional<PairMatrix> CalibrationCovariance(const StereoRig& rig,
   switch (choice.source) {
     case CalibrationSource::kExact:
       return std::nullopt;
-    case CalibrationSource::kPerturbed: {
-      const Eigen::MatrixXd errors = ErrorsOfBoards(rig, choice);
-      return PairMatrix(errors * errors.transpose() +
-                        MovedRight(p_RL, choice.rotation_error_rad, choice.translation_error_m));
-    }
+    case CalibrationSource::kPerturbed:
+      return PerturbedCovariance(p_RL, choice, ErrorsOfBoards(rig, choice));
     case CalibrationSource::kBoards:
       FENESTRA_CHECK(boards.has_value(), "a calibration with boards has a covariance");
       return boards;

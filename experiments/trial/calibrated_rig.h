@@ -26,8 +26,7 @@ struct CalibratedRig {
 ///
 ///     kExact      the rig's own cameras
 ///     kPerturbed  the rig's own cameras with an error that is drawn, not made: what boards leave
-///     to
-///                 first order (BoardErrors), then a turn and a shift of the right camera
+///                 to first order (BoardErrors), then a turn and a shift of the right camera
 ///     kBoards     bundle adjustment of simulated pictures of a board (CalibrateWithBoards)
 ///     kStale      as kBoards, after which the right camera of the rig that flies is displaced
 ///     kDesign     the cameras of the rig's design

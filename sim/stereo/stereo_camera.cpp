@@ -9,23 +9,9 @@
 namespace fenestra {
 namespace {
 
-CameraModel BuiltCamera(const StereoRigOptions& options, const RandomStream& camera) {
-  if (options.as_designed) return DesignOf(options).left;
-  const RigTolerances& tolerances = options.tolerances;
-  CameraParameters built = DesignOf(options).left.parameters();
-  const double focal = 1.0 + tolerances.focal_length * camera.Child("focal_length").Normal(0);
-  built.fx_px *= focal;
-  built.fy_px *= focal;
-  const RandomStream principal_point = camera.Child("principal_point");
-  built.cx_px += tolerances.principal_point_px * principal_point.Normal(0);
-  built.cy_px += tolerances.principal_point_px * principal_point.Normal(1);
-  const RandomStream distortion = camera.Child("distortion");
-  BrownConrady& d = built.distortion;
-  uint64_t index = 0;
-  for (double* coefficient : {&d.k1, &d.k2, &d.p1, &d.p2, &d.k3}) {
-    *coefficient *= 1.0 + tolerances.distortion * distortion.Normal(index++);
-  }
-  return CameraModel(built);
+CameraModel Built(const StereoRigOptions& options, const RandomStream& camera) {
+  const CameraModel design = DesignOf(options).left;
+  return options.as_designed ? design : BuiltCamera(design, options.tolerances.camera(), camera);
 }
 
 // Grey values per electron of a camera as built, as a multiple of the design's.
@@ -64,7 +50,7 @@ CameraModel CoarseCamera(const CameraModel& camera) {
 StereoCamera::StereoCamera(const StereoRigOptions& options, const RandomStream& own)
     : options_(options),
       stream_(own),
-      rays_(BuiltCamera(options, own)),
+      rays_(Built(options, own)),
       illumination_(RelativeIllumination(rays_, options.lens)),
       coarse_rays_(CoarseCamera(rays_.camera())),
       coarse_illumination_(RelativeIllumination(coarse_rays_, options.lens)),

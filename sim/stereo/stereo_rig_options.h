@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/geometry/calibration.h"
+#include "sim/camera/built_camera.h"
 #include "sim/camera/image_sensor.h"
 #include "sim/camera/lens.h"
 #include "sim/camera/spectral_response.h"
@@ -21,6 +22,13 @@ struct RigTolerances {
   /// Decentring of the lens' parts: place in the image where coma vanishes, each axis, in half
   /// diagonals.
   double coma_centre = 0.3;
+
+  /// Of the camera model.
+  CameraDeviations camera() const {
+    return {.focal_length = focal_length,
+            .principal_point_px = principal_point_px,
+            .distortion = distortion};
+  }
 };
 
 /// A pair of IDS uEye UI-1226LE-M-G (MT9V032, 752 x 480, 6 µm) on a 35 cm bar, as designed.

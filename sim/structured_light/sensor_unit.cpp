@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/io/faults.h"
+#include "sim/camera/built_camera.h"
 #include "sim/structured_light/disparity.h"
 
 namespace fenestra {
@@ -16,23 +17,10 @@ double ScaleOf(const CameraModel& camera) {
   return camera.width_px() / DisparityRange::kImageWidth;
 }
 
-CameraModel Built(const CameraModel& design, const UnitDeviations& deviations,
-                  const RandomStream& camera) {
-  CameraParameters built = design.parameters();
-  const double focal = 1.0 + deviations.focal_length * camera.Child("focal_length").Normal(0);
-  built.fx_px *= focal;
-  built.fy_px *= focal;
-  const double shift_px = deviations.principal_point_px * ScaleOf(design);
-  const RandomStream principal_point = camera.Child("principal_point");
-  built.cx_px += shift_px * principal_point.Normal(0);
-  built.cy_px += shift_px * principal_point.Normal(1);
-  const RandomStream distortion = camera.Child("distortion");
-  BrownConrady& d = built.distortion;
-  uint64_t index = 0;
-  for (double* coefficient : {&d.k1, &d.k2, &d.p1, &d.p2, &d.k3}) {
-    *coefficient *= 1.0 + deviations.color_distortion * distortion.Normal(index++);
-  }
-  return CameraModel(built);
+CameraDeviations OfCamera(const CameraModel& design, const UnitDeviations& deviations) {
+  return {.focal_length = deviations.focal_length,
+          .principal_point_px = deviations.principal_point_px * ScaleOf(design),
+          .distortion = deviations.color_distortion};
 }
 
 // A field with the correlation exp(-r²/4ℓ²) is white noise through a Gaussian of deviation ℓ. It is
@@ -87,8 +75,10 @@ SensorUnit BuildUnit(const RgbdCalibration& design, const UnitDeviations& deviat
   Validate(deviations);
   SensorUnit built{.cameras = design, .disparity = {}, .deviations = deviations};
   if (deviations == UnitDeviations{}) return built;
-  built.cameras.color = Built(design.color, deviations, unit.Child("color"));
-  built.cameras.depth = Built(design.depth, deviations, unit.Child("depth"));
+  built.cameras.color =
+      BuiltCamera(design.color, OfCamera(design.color, deviations), unit.Child("color"));
+  built.cameras.depth =
+      BuiltCamera(design.depth, OfCamera(design.depth, deviations), unit.Child("depth"));
   const Pose mounting =
       RandomPose(unit.Child("mounting"), deviations.rotation_rad, deviations.translation_m);
   built.cameras.X_KD = mounting * design.X_KD;
@@ -102,28 +92,13 @@ SensorUnit BuildUnit(const RgbdCalibration& design, const UnitDeviations& deviat
 
 Eigen::MatrixXd UnitCovariance(const RgbdCalibration& design, const UnitDeviations& deviations) {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(kUnitParameters, kUnitParameters);
-  const auto set_camera = [&](const CameraModel& camera, Eigen::Index first) {
-    // One factor for both focal lengths.
-    const Eigen::Vector2d focal_px(camera.parameters().fx_px, camera.parameters().fy_px);
-    covariance.block<2, 2>(first, first) =
-        std::pow(deviations.focal_length, 2) * focal_px * focal_px.transpose();
-    covariance.diagonal().segment<2>(first + 2).setConstant(
-        std::pow(deviations.principal_point_px * ScaleOf(camera), 2));
-  };
-  set_camera(design.color, 0);
-  set_camera(design.depth, kUnitDepthCamera);
-  covariance.diagonal().segment<5>(4) =
-      (deviations.color_distortion * design.color.ParameterVector().tail<5>()).cwiseAbs2();
-  // A turn before X_KD also moves its translation, by turn x p_KD.
-  const double turn2 = deviations.rotation_rad * deviations.rotation_rad;
-  const Eigen::Matrix3d by_turn = -CrossMatrix(design.X_KD.translation());
-  auto pose = covariance.block<6, 6>(kUnitPose, kUnitPose);
-  pose.topLeftCorner<3, 3>().diagonal().setConstant(turn2);
-  pose.bottomLeftCorner<3, 3>() = turn2 * by_turn;
-  pose.topRightCorner<3, 3>() = turn2 * by_turn.transpose();
-  pose.bottomRightCorner<3, 3>() =
-      turn2 * by_turn * by_turn.transpose() +
-      deviations.translation_m * deviations.translation_m * Eigen::Matrix3d::Identity();
+  covariance.topLeftCorner<9, 9>() =
+      BuiltCovariance(design.color, OfCamera(design.color, deviations));
+  covariance.block<6, 6>(kUnitPose, kUnitPose) =
+      MovedCovariance(design.X_KD.translation(), deviations.rotation_rad, deviations.translation_m);
+  // The depth camera has no distortion.
+  covariance.block<4, 4>(kUnitDepthCamera, kUnitDepthCamera) =
+      BuiltCovariance(design.depth, OfCamera(design.depth, deviations)).topLeftCorner<4, 4>();
   covariance(kUnitScale, kUnitScale) = std::pow(deviations.disparity_scale, 2);
   covariance(kUnitOffset, kUnitOffset) = std::pow(deviations.disparity_offset_px, 2);
   return covariance;
