@@ -34,9 +34,9 @@ const char* CauseOf(FactorGroup group) {
 bool ActsIn(const std::string& source, const Cell& cell) {
   if (source == kShotSource) return true;
   if (!IsStream(source)) return Concerns(GroupOf(source), cell.sensor);
-  if (cell.sensor == SensorKind::kStereo) return cell.settings.stereo_rig_per_trial;
-  return source == kRigSource && cell.settings.rgbd_unit_per_trial &&
-         cell.settings.rgbd_calibration.source != RgbdCalibrationSource::kExact;
+  // What is told of an RGB-D sensor is its design.
+  if (cell.sensor == SensorKind::kRgbd && source == kCalibrationSource) return false;
+  return EachTrialHasItsOwnSensor(cell.settings, cell.sensor);
 }
 
 }  // namespace

@@ -39,6 +39,12 @@ UnitDeviations RgbdCalibrationChoice::deviations() const {
   FENESTRA_CHECK(false, "calibration source out of range");
 }
 
+bool EachTrialHasItsOwnSensor(const TrialSettings& settings, SensorKind sensor) {
+  if (sensor == SensorKind::kStereo) return settings.stereo_rig_per_trial;
+  return settings.rgbd_unit_per_trial &&
+         settings.rgbd_calibration.source != RgbdCalibrationSource::kExact;
+}
+
 Pose RigPoseOf(const TrialSettings& settings, const Scene& scene) {
   // Without a window the rig looks at the place where it would be: the world's origin.
   return RigPose(settings.viewpoint, scene.target ? scene.target->X_WO : Pose());

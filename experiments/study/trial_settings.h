@@ -88,6 +88,10 @@ struct TrialSettings {
   bool rgbd_unit_per_trial = true;
 };
 
+/// Whether each trial has a sensor of its own, built and told anew: an RGB-D sensor that is exactly
+/// as told is always the same.
+bool EachTrialHasItsOwnSensor(const TrialSettings& settings, SensorKind sensor);
+
 /// The options of the painted target; frame_width_m is the width of its border.
 PaperTargetOptions PaperTargetOf(const TrialSettings& settings);
 

@@ -39,10 +39,7 @@ CellRunner::CellRunner(const Study& study, const Cell& cell,
     shared_design_.emplace(settings.rgbd);
     calibration = shared_design_->nominal();
   }
-  sensor_is_drawn |= cell.sensor == SensorKind::kStereo
-                         ? settings.stereo_rig_per_trial
-                         : settings.rgbd_unit_per_trial &&
-                               settings.rgbd_calibration.source != RgbdCalibrationSource::kExact;
+  sensor_is_drawn |= EachTrialHasItsOwnSensor(settings, cell.sensor);
   if (!sensor_is_drawn) {
     shared_instrument_ =
         std::make_shared<const Instrument>(MakeInstrument(settings, SharedStreams(study, cell)));
