@@ -25,8 +25,8 @@ constexpr int kMostNear = 12;
 // At the rim of a sheet on the surface, half of them end on it.
 constexpr int kNearOfFree = 2;
 
-size_t CellIndex(int row, int column, int side = kHemisphereCells) {
-  return static_cast<size_t>(row * side + column);
+size_t CellIndex(int row, int column) {
+  return static_cast<size_t>(row * kHemisphereCells + column);
 }
 
 Directions ToWorldAbout(const vec3& n, const DirectionSquare& square) {
@@ -116,13 +116,13 @@ class HemisphereCaster::Tally {
 
 namespace {
 
-// The endings in a square grid over the hemisphere; whether a neighbour differs.
+// Whether a neighbouring cell ends differently.
 template <typename Ending>
-bool OnBoundary(const std::vector<Ending>& endings, int side, int row, int column) {
-  const Ending& here = endings[CellIndex(row, column, side)];
+bool OnBoundary(const std::vector<Ending>& endings, int row, int column) {
+  const Ending& here = endings[CellIndex(row, column)];
   const auto differs = [&](int r, int c) {
-    return r >= 0 && r < side && c >= 0 && c < side &&
-           here.DiffersFrom(endings[CellIndex(r, c, side)]);
+    return r >= 0 && r < kHemisphereCells && c >= 0 && c < kHemisphereCells &&
+           here.DiffersFrom(endings[CellIndex(r, c)]);
   };
   return differs(row - 1, column) || differs(row + 1, column) || differs(row, column - 1) ||
          differs(row, column + 1);
@@ -142,7 +142,7 @@ HemisphereView HemisphereCaster::From(const BakePoint& point) const {
   for (int row = 0; row < kHemisphereCells; ++row) {
     for (int column = 0; column < kHemisphereCells; ++column) {
       const size_t cell = CellIndex(row, column);
-      if (!OnBoundary(coarse, kHemisphereCells, row, column)) {
+      if (!OnBoundary(coarse, row, column)) {
         tally.Add(coarse[cell], static_cast<float>(kLanes));
         continue;
       }

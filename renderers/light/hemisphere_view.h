@@ -34,8 +34,8 @@ class HemisphereCaster {
   /// Keeps a reference to the scene.
   explicit HemisphereCaster(const TracedScene& scene);
 
-  /// What is seen from the point, by the coarsest division of the hemisphere that is fine enough
-  /// for what is seen of the open.
+  /// What is seen from the point: along one ray into each cell of the hemisphere, and along sixteen
+  /// into those whose neighbours end differently.
   HemisphereView From(const BakePoint& point) const;
 
   /// The view if nothing stood before the point.

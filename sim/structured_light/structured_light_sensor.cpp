@@ -104,8 +104,7 @@ StructuredLightSensor::StructuredLightSensor(const StructuredLightOptions& optio
       unit_{.cameras = DesignOf(options), .disparity = {}, .deviations = {}},
       cameras_(nominal_),
       depth_model_(MakeDepthModel(options, unit_.cameras.depth)),
-      color_(MakeColorCamera(options, unit_.cameras, RandomStream(0).Child("color_camera"))),
-      depth_rays_(cameras_.depth) {
+      color_(MakeColorCamera(options, unit_.cameras, RandomStream(0).Child("color_camera"))) {
   if (options.registered_depth) {
     const RgbdCalibration& known = unit_.cameras;
     registrar_.emplace(known.depth, known.X_KD, nominal_.depth);
@@ -126,7 +125,6 @@ StructuredLightSensor StructuredLightSensor::Unit(const UnitDeviations& deviatio
       },
       built.depth_model_);
   built.color_ = MakeColorCamera(options_, cameras, unit.Child("color_pixels"));
-  built.depth_rays_ = RayGrid(built.cameras_.depth);
   return built;
 }
 
@@ -203,12 +201,11 @@ GroundTruth StructuredLightSensor::Truth(const Scene& scene, const Pose& X_WB) c
 TruthImages StructuredLightSensor::PixelTruth(const RayCaster& caster, const Lighting& lighting,
                                               const Pose& X_WB) const {
   const Eigen::Vector3d p_WP = X_WB * Eigen::Vector3d(options_.projector_baseline_m, 0.0, 0.0);
-  AovImages aovs =
-      caster.CastAovs(depth_rays_, X_WD(X_WB), lighting, {.offsets_px = {}, .p_WP = p_WP});
+  const RayGrid rays(cameras_.depth);
+  AovImages aovs = caster.CastAovs(rays, X_WD(X_WB), lighting, {.offsets_px = {}, .p_WP = p_WP});
   const RenderOptions render{.band = Band::kInfrared,
                              .edge_samples_per_pixel = options_.edge_samples_per_pixel};
-  const cv::Mat1f radiance =
-      caster.Render(depth_rays_, X_WD(X_WB), lighting, render, RandomStream(0));
+  const cv::Mat1f radiance = caster.Render(rays, X_WD(X_WB), lighting, render, RandomStream(0));
   const auto fb =
       static_cast<float>(options_.depth_focal_px * options_.projector_baseline_m);  // [px m]
   cv::Mat2f disparity_px(aovs.depth_m.size());

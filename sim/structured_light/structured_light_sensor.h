@@ -125,7 +125,6 @@ class StructuredLightSensor {
   std::variant<std::shared_ptr<const ParametricDepth>, std::shared_ptr<const MatchedDepth>>
       depth_model_;
   ColorCamera color_;
-  RayGrid depth_rays_;  ///< The rays of the depth image.
   std::optional<DepthRegistrar> registrar_;
 };
 
