@@ -15,17 +15,14 @@
 #include "core/io/temporary_files.h"
 #include "experiments/trial_files/truth_files.h"
 #include "renderers/ray_caster.h"
-#include "scenes/mesh/tessellation.h"
 
 namespace fenestra {
 namespace {
 
 using Eigen::Vector3d;
 
-// Enough for light to vary over a building.
-constexpr size_t kTriangles = 20000;
-// However many triangles there are, the bake takes no more than about five seconds.
-constexpr size_t kLightPoints = 8000;
+// However many triangles there are, the bake takes no more than about fifteen seconds.
+constexpr size_t kLightPoints = 60000;
 
 // Of all that is written about a pixel, in memory; and of the time for it on one core, where every
 // pixel has an edge, without lamps and for each lamp.
@@ -185,7 +182,7 @@ void CheckCost(const Scene& scene, const std::vector<SceneCamera>& cameras,
     pixels += own;
     largest = std::max(largest, own);
   }
-  double triangles = kTriangles;
+  double triangles = 0.0;
   for (const Mesh& mesh : scene.meshes) triangles += static_cast<double>(mesh.triangles.size());
   const auto lamps = static_cast<double>(scene.lamps.size());
   const double seconds = pixels * (kSecondsPerPixel + lamps * kSecondsPerLampAndPixel) +
@@ -210,7 +207,7 @@ void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
                      const SceneViewOptions& options) {
   const std::vector<SceneCamera> cameras = CamerasOf(world, options);
   CheckCost(world.scene, cameras, options);
-  const RayCaster caster(Tessellated(world.scene, kTriangles), {.most_light_points = kLightPoints});
+  const RayCaster caster(world.scene, {.most_light_points = kLightPoints});
   std::set<std::string> used;
   for (const SceneCamera& camera : cameras) {
     WriteView(folder / FolderName(camera.name, used), caster, camera, options.lighting, world.p_FW);

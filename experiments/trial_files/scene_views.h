@@ -39,7 +39,6 @@ std::vector<SceneCamera> CamerasOf(const GltfScene& world, const SceneViewOption
 ///
 /// Throws InputError for views that need more than the options allow.
 ///
-/// Surfaces that are not closed are tessellated first, as light is known at vertices.
 void WriteSceneViews(const OutputPath& folder, const GltfScene& world,
                      const SceneViewOptions& options);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "renderers/tracing/packet.h"
@@ -17,32 +18,11 @@ struct BakePoint {
   glm::vec3 n_W{0.0f};
 };
 
-/// A vertex of one surface: the corners of all its triangles there share their view.
-struct SharedCorner {
-  glm::vec3 p_W{0.0f};
-  glm::vec3 n_W{0.0f};
-  glm::vec3 centroid_sum_W{0.0f};  ///< Over the triangles of the surface that meet here,
-  float count = 0.0f;              ///< of which there are this many.
-  uint32_t surface = 0;            ///< See NumberSurfaces.
-  bool is_closed = false;          ///< See Mesh::closed.
-  bool is_smooth = false;          ///< n_W is the vertex's normal instead of the triangles'.
-
-  /// A point on one side, a little inside the surface.
-  BakePoint Side(bool front) const;
-};
-
-/// All of them, and for each triangle the indices of its three.
-struct SharedCorners {
-  std::vector<SharedCorner> corners;
-  std::vector<std::array<size_t, 3>> of_triangle;
-};
-
-SharedCorners FindSharedCorners(const TriangleSoup& soup, const std::vector<uint32_t>& surfaces);
-
-/// The same triangles with at most `most` corners (but at least one for each of a few dozen
-/// directions): those that are in one cell of a grid and face alike become one, the first of them.
-/// The cells are as small as that allows; corners that are few enough stay as they are.
-SharedCorners Thinned(SharedCorners shared, size_t most);
+/// For each point the index of the one whose light it shares: its own, or if there are more than
+/// `most`, the first one of those in the same cell of a grid that face alike. There are at most
+/// `most` of these, but at least one for each of a few dozen directions, and the cells are as small
+/// as that allows.
+std::vector<size_t> SharedPoints(const std::vector<BakePoint>& points, size_t most);
 
 /// The hemisphere about +z is divided into kHemisphereCells x kHemisphereCells compact cells of
 /// equal cosine-weighted solid angle.
@@ -57,9 +37,14 @@ static_assert(kHemisphereCells % kDirectionSquare == 0);
 using DirectionSquare = std::array<glm::vec3, kLanes>;
 
 struct HemisphereDirections {
-  std::vector<DirectionSquare> tiles;  ///< The centres of 4 x 4 cells each; row-major.
-  DirectionSquare whole{};             ///< Sixteen all over the hemisphere.
-  std::vector<DirectionSquare> cells;  ///< Sixteen directions inside each cell; row-major.
+  std::vector<DirectionSquare> tiles;     ///< The centres of 4 x 4 cells each; row-major.
+  DirectionSquare whole{};                ///< Sixteen all over the hemisphere.
+  std::vector<DirectionSquare> cells;     ///< Sixteen directions inside each cell; row-major.
+  std::vector<DirectionSquare> quarters;  ///< Sixteen inside each quarter of each cell.
+
+  std::span<const DirectionSquare, 4> QuartersOf(size_t cell) const {
+    return std::span<const DirectionSquare, 4>(quarters.data() + 4 * cell, 4);
+  }
 };
 
 HemisphereDirections MakeHemisphereDirections();

@@ -11,10 +11,10 @@ namespace fenestra {
 
 /// Light that reaches the points of a LightBake from sky and ground, and from other surfaces by up
 /// to a given number of diffuse bounces. Light that arrives straight from sun and lamps is left to
-/// shadow rays. With the vector E of the points' irradiances, the sides' reflectances ρ and
+/// shadow rays. With the vector E of the points' irradiances, the elements' reflectances ρ and
 /// exitances M_0 before any bounce, and the form factors G,
 ///
-///     E = E_open + G (M_0 + ρ Ē),   Ē: mean over a side's corners,
+///     E = E_open + G (M_0 + ρ Ē),   Ē: mean over an element,
 ///
 /// is iterated from E = E_open `bounces` times, or until no value changes by more than 1e-5 of the
 /// largest irradiance. The result is linear in each light and computed for a unit of it.
@@ -38,13 +38,15 @@ class DiffuseLight {
 
  private:
   PointIrradiances Bounced(const PointIrradiances& open, const std::vector<Spectrum>& M_0) const;
+  struct ElementRays;
+  ElementRays RaysFrom(size_t element) const;
 
   const Scene& scene_;
   const TracedScene& traced_;
   const LightBake& bake_;
   int bounces_;
-  std::vector<Spectrum> reflectances_;  // Reflectance of each side.
-  std::vector<Spectrum> emissions_;     // Exitance of each side.
+  std::vector<Spectrum> reflectances_;  // Of each element.
+  std::vector<Spectrum> emissions_;     // Exitance of each element.
 };
 
 /// The irradiance of a lamp of 1 cd on a surface at p with the unit normal n, if nothing is in the

@@ -22,6 +22,9 @@ constexpr uint32_t kOpen = ~0u;
 constexpr int kMostBacks = 1;
 // A point in an edge of two faces has half of its hemisphere near it; in a sharper one more.
 constexpr int kMostNear = 12;
+// Up to this many cells get four times the rays: where little is open, as in a room, its light is
+// as exact as that of an open place.
+constexpr size_t kFewCells = 40;
 // At the rim of a sheet on the surface, half of them end on it.
 constexpr int kNearOfFree = 2;
 
@@ -50,6 +53,7 @@ Directions ToWorldAbout(const vec3& n, const DirectionSquare& square) {
 // The end of a ray.
 struct HemisphereCaster::Ending {
   uint32_t side = kOpen;  // The side of the surface that was hit.
+  glm::vec2 st{0.0f};     // In its patch.
   float distance_m = 0.0f;
   float transmittance = 0.0f;
   vec3 direction_W{0.0f};
@@ -64,59 +68,73 @@ struct HemisphereCaster::Ending {
 // Collects the ends of the rays from one point, each standing for a part of the hemisphere.
 class HemisphereCaster::Tally {
  public:
-  void Add(const Ending& ending, float weight) {
-    if (ending.side != kOpen) {
-      factors_.push_back({ending.side, weight * ending.transmittance});
-    } else if (ending.direction_W.y > 0.0f) {
-      view_.sky[static_cast<size_t>(SkyPatchOf(ending.direction_W))] +=
-          weight * ending.transmittance;
-      unobstructed_sky_ += weight;
-    } else {
-      view_.ground += weight * ending.transmittance;
-      unobstructed_ground_ += weight;
-    }
-    if (ending.side != kOpen) {
-      (ending.direction_W.y > 0.0f ? unobstructed_sky_ : unobstructed_ground_) += weight;
-    }
+  // `element`: what is seen of a surface.
+  void Add(const Ending& ending, uint32_t element, float weight) {
+    const bool upwards = ending.direction_W.y > 0.0f;
+    const float seen = weight * ending.transmittance;
+    (upwards ? unobstructed_sky_ : unobstructed_ground_) += weight;
     total_ += weight;
+    if (ending.side == kOpen) {
+      if (upwards) {
+        SkyPart& part = sky_[static_cast<size_t>(SkyPatchOf(ending.direction_W))];
+        part.w += seen;
+        part.sum_W += seen * ending.direction_W;
+      } else {
+        ground_ += seen;
+      }
+      return;
+    }
+    const float distance_m = std::max(ending.distance_m, kNearest_m);
+    curvature_ += weight / (distance_m * distance_m);
+    if (element != LightElements::kNone) factors_.push_back({element, seen});
   }
 
   // The quadrature's parts above and below the horizon are scaled to their exact values for n.
   fenestra::OpenView OpenView(const vec3& n) const {
     const float sky = 0.5f * (1.0f + n.y);
     const float ground = 0.5f * (1.0f - n.y);
-    fenestra::OpenView view = view_;
     const float to_sky =
         unobstructed_sky_ > 0.0f ? std::numbers::pi_v<float> * sky / unobstructed_sky_ : 0.0f;
-    for (float& s : view.sky) s *= to_sky;
-    view.ground *= unobstructed_ground_ > 0.0f ? ground / unobstructed_ground_ : 0.0f;
+    const float to_ground = unobstructed_ground_ > 0.0f ? ground / unobstructed_ground_ : 0.0f;
+    fenestra::OpenView view{.sky = {}, .ground = to_ground * ground_};
+    for (uint32_t patch = 0; patch < kSkyPatches; ++patch) {
+      const SkyPart& part = sky_[patch];
+      if (part.w > 0.0f) view.sky.push_back({patch, to_sky * part.w, to_sky * part.sum_W});
+    }
     return view;
   }
 
-  // One form factor per side, in the order of the sides.
+  // One form factor per element, in the order of the elements.
   std::vector<FormFactor> Factors() {
+    std::ranges::stable_sort(factors_, {}, &FormFactor::element);
     std::vector<FormFactor> out;
-    std::ranges::sort(factors_, {}, &FormFactor::side);
-    for (size_t i = 0; i < factors_.size();) {
-      FormFactor sum{factors_[i].side, 0.0f};
-      for (; i < factors_.size() && factors_[i].side == sum.side; ++i) sum.w += factors_[i].w;
-      sum.w /= total_;
-      out.push_back(sum);
+    for (const FormFactor& part : factors_) {
+      if (out.empty() || out.back().element != part.element) out.push_back({part.element, 0.0f});
+      out.back().w += part.w;
     }
+    for (FormFactor& factor : out) factor.w /= total_;
     return out;
   }
 
+  float Curvature() const { return curvature_ / total_; }
+
  private:
-  fenestra::OpenView view_;
+  // Nearer surfaces are as near.
+  static constexpr float kNearest_m = 1e-4f;
+
+  std::array<SkyPart, kSkyPatches> sky_{};
+  float ground_ = 0.0f;
   float unobstructed_sky_ = 0.0f;
   float unobstructed_ground_ = 0.0f;
   float total_ = 0.0f;
+  float curvature_ = 0.0f;
   std::vector<FormFactor> factors_;
 };
 
 namespace {
 
-// Whether a neighbouring cell ends differently.
+// Whether any of the eight neighbouring cells ends differently: with four, the corners of small
+// openings would be lost.
 template <typename Ending>
 bool OnBoundary(const std::vector<Ending>& endings, int row, int column) {
   const Ending& here = endings[CellIndex(row, column)];
@@ -124,32 +142,69 @@ bool OnBoundary(const std::vector<Ending>& endings, int row, int column) {
     return r >= 0 && r < kHemisphereCells && c >= 0 && c < kHemisphereCells &&
            here.DiffersFrom(endings[CellIndex(r, c)]);
   };
-  return differs(row - 1, column) || differs(row + 1, column) || differs(row, column - 1) ||
-         differs(row, column + 1);
+  for (int r = row - 1; r <= row + 1; ++r) {
+    for (int c = column - 1; c <= column + 1; ++c) {
+      if (differs(r, c)) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace
 
-HemisphereCaster::HemisphereCaster(const TracedScene& scene)
+HemisphereCaster::HemisphereCaster(const TracedScene& scene, const LightPatches& patches,
+                                   LightElements& elements)
     : scene_(scene),
+      patches_(patches),
+      elements_(elements),
       offset_m_(scene.SurfaceOffset(vec3(0.0f))),
       directions_(MakeHemisphereDirections()),
       bounds_body_(BoundBodies(scene.opaque())) {}
 
-HemisphereView HemisphereCaster::From(const BakePoint& point) const {
+HemisphereView HemisphereCaster::From(const BakePoint& point) {
   const std::vector<Ending> coarse = CastTiles(point);
+  std::vector<size_t> divided;
   Tally tally;
+  const auto see = [this](const Ending& ending) {
+    return elements_.See(patches_, patches_.FaceOf(ending.side), {ending.side / 2, ending.st},
+                         ending.distance_m);
+  };
   for (int row = 0; row < kHemisphereCells; ++row) {
     for (int column = 0; column < kHemisphereCells; ++column) {
       const size_t cell = CellIndex(row, column);
-      if (!OnBoundary(coarse, row, column)) {
-        tally.Add(coarse[cell], static_cast<float>(kLanes));
-        continue;
+      if (OnBoundary(coarse, row, column)) {
+        divided.push_back(cell);
+      } else {
+        const Ending& ending = coarse[cell];
+        tally.Add(ending, ending.side == kOpen ? LightElements::kNone : see(ending), 1.0f);
       }
-      for (const Ending& ending : Cast(point, directions_.cells[cell])) tally.Add(ending, 1.0f);
     }
   }
-  return {.open = tally.OpenView(point.n_W), .factors = tally.Factors()};
+  const bool few = divided.size() <= kFewCells;
+  for (const size_t cell : divided) {
+    // What is seen of one face in a cell is of one element.
+    uint32_t face = LightElements::kNone;
+    uint32_t element = LightElements::kNone;
+    const auto add = [&](const DirectionSquare& square, float weight) {
+      for (const Ending& ending : Cast(point, square)) {
+        if (ending.side != kOpen && patches_.FaceOf(ending.side) != face) {
+          face = patches_.FaceOf(ending.side);
+          element = see(ending);
+        }
+        tally.Add(ending, ending.side == kOpen ? LightElements::kNone : element, weight);
+      }
+    };
+    if (few) {
+      for (const DirectionSquare& quarter : directions_.QuartersOf(cell)) {
+        add(quarter, 1.0f / (4.0f * kLanes));
+      }
+    } else {
+      add(directions_.cells[cell], 1.0f / kLanes);
+    }
+  }
+  return {.open = tally.OpenView(point.n_W),
+          .factors = tally.Factors(),
+          .curvature_per_m2 = tally.Curvature()};
 }
 
 OpenView HemisphereCaster::Unobstructed(const BakePoint& point) const {
@@ -159,7 +214,7 @@ OpenView HemisphereCaster::Unobstructed(const BakePoint& point) const {
     for (int i = 0; i < kLanes; ++i) {
       tally.Add({.transmittance = 1.0f,
                  .direction_W = {directions.x[i], directions.y[i], directions.z[i]}},
-                1.0f);
+                LightElements::kNone, 1.0f);
     }
   }
   return tally.OpenView(point.n_W);
@@ -217,7 +272,10 @@ std::array<HemisphereCaster::Ending, kLanes> HemisphereCaster::Cast(
   const Lanes<uint32_t> sides = SidesHit(packet, triangle_count);
   for (int i = 0; i < kLanes; ++i) {
     Ending& ending = endings[static_cast<size_t>(i)];
-    ending.side = sides[i] < 2 * triangle_count ? sides[i] : kOpen;
+    if (sides[i] < 2 * triangle_count) {
+      ending.side = sides[i];
+      ending.st = patches_.At(sides[i] / 2, packet.hit.u[i], packet.hit.v[i]);
+    }
     ending.distance_m = packet.ray.tfar[i];
     ending.direction_W = {soa.x[i], soa.y[i], soa.z[i]};
   }

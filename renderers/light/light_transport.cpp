@@ -87,7 +87,7 @@ LightTransport::LightTransport(const Surfaces& surfaces, const std::vector<Spect
   to_sun_W_ = {to_sun.x(), to_sun.y(), to_sun.z()};
   const Scene& scene = surfaces.scene;
   for (const Channel channel : channels) {
-    sides_.push_back(
+    surface_light_.push_back(
         LightSurfaces(scene, surfaces.traced.opaque(), surfaces.bake, ambient, lighting, channel));
     const Spectrum weights = WeightsOf(channel);
     std::vector<Spectrum>& pattern = pattern_weights_.emplace_back();
@@ -108,8 +108,7 @@ LightTransport::LightTransport(const Surfaces& surfaces, const std::vector<Spect
     }
     if (!sky_varies_ && !IsArriving(channel)) {
       const Spectrum L = sky_.Towards({0.0f, 1.0f, 0.0f}).radiance;
-      sides_.back()[SideIndex(surfaces.traced.opaque().size(), true)].ambient =
-          glm::dot(weights, L);
+      surface_light_.back().ambient[SkyLeaf(surfaces.bake)].at_0 = glm::dot(weights, L);
     }
   }
 }
@@ -190,15 +189,16 @@ LightTransport::Ends LightTransport::Shade(const LaneMask& mask, const RayPacket
                                            const Lanes<float>& before) const {
   Ends ends;
   ends.side_hit = SidesHit(packet, static_cast<uint32_t>(surfaces_.traced.opaque().size()));
-  const SideGroups groups = GroupsOf(ends.side_hit);
+  const LeavesHit leaves = FindLeaves(surfaces_.bake, ends.side_hit, packet);
   for (size_t c = 0; c < channels_.size(); ++c) {
-    ends.radiance[c] = AmbientLeaving(sides_[c].data(), groups, ends.side_hit, packet);
+    ends.radiance[c] = AmbientLeaving(surface_light_[c].ambient.data(), leaves);
   }
   if (has_sun_) {
+    const LaneGroups groups = GroupsOf(ends.side_hit);
     std::array<Lanes<float>, kMostChannels> sun;
     Lanes<float> sun_facing;
     for (size_t c = 0; c < channels_.size(); ++c) {
-      sun[c] = SunLeaving(sides_[c].data(), groups, ends.side_hit, packet);
+      sun[c] = SunLeaving(surface_light_[c].sun.data(), groups, ends.side_hit, packet);
       KeepLarger(sun[c], sun_facing);
     }
     ends.sun = SunReaching(mask, packet, sun_facing);

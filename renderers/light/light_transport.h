@@ -12,7 +12,7 @@ namespace fenestra {
 
 /// The light of a scene under one lighting, as it arrives along rays.
 ///
-/// A ray that meets a surface carries the surface's radiance (see SideRadiance), with V found by a
+/// A ray that meets a surface carries the surface's radiance (see SurfaceLight), with V found by a
 /// shadow ray, and the light of the lamps, with one more shadow ray each, all of it multiplied by
 /// the surface's pattern. A pane of glass before it adds its mirror image, seen without further
 /// panes:
@@ -81,7 +81,7 @@ class LightTransport {
 
   Surfaces surfaces_;
   std::vector<Channel> channels_;
-  std::vector<std::vector<SideRadiance>> sides_;        // Per channel.
+  std::vector<SurfaceLight> surface_light_;             // Per channel.
   std::vector<std::vector<Spectrum>> pattern_weights_;  // Per channel and mesh.
   std::vector<std::vector<Spectrum>> lamp_weights_;     // Per channel and mesh: ρ/π of the lamps.
   SkyLight sky_;

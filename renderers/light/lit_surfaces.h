@@ -10,38 +10,58 @@
 
 namespace fenestra {
 
-/// Light leaving one side of a triangle in one channel, as a function of a hit's barycentric (u, v)
-/// and of the part V of the sunlight that arrives, without lamps and patterns:
-///
-///     L(u, v, V) = ambient + ambient_u u + ambient_v v + V max(sun + sun_u u + sun_v v, 0).
-struct SideRadiance {
-  float ambient = 0.0f;
-  float ambient_u = 0.0f;
-  float ambient_v = 0.0f;
-  float sun = 0.0f;  ///< 0, as are its derivatives, if the sun is behind this side.
-  float sun_u = 0.0f;
-  float sun_v = 0.0f;
+/// A linear function of two coordinates of a hit.
+struct LinearLight {
+  float at_0 = 0.0f;
+  float per_x = 0.0f;
+  float per_y = 0.0f;
 };
 
-/// Radiance of all sides, for the irradiance `ambient` of the bake's points; 0 for the sky. In
-/// channels of arriving light it is the irradiance itself, and 0 for sky and ground.
-std::vector<SideRadiance> LightSurfaces(const Scene& scene, const TriangleSoup& soup,
-                                        const LightBake& bake, const std::vector<Spectrum>& ambient,
-                                        const Lighting& lighting, Channel channel);
+/// Light leaving all surfaces in one channel, without lamps and patterns: with the part V of the
+/// sunlight that arrives,
+///
+///     L = ambient(s, t) + V max(sun(u, v), 0).
+struct SurfaceLight {
+  /// Of each leaf (see LightLeaves) in (s, t); of SkyLeaf and GroundLeaf after them.
+  std::vector<LinearLight> ambient;
+  /// Of each side (see SideIndex) in barycentric (u, v); 0 if the sun is behind it.
+  std::vector<LinearLight> sun;
+};
 
-/// The different sides that a packet has hit. They are few, and all lanes of one side are shaded at
-/// once.
-struct SideGroups {
-  Lanes<uint32_t> sides;
+inline uint32_t SkyLeaf(const LightBake& bake) {
+  return static_cast<uint32_t>(bake.leaves.leaves().size());
+}
+inline uint32_t GroundLeaf(const LightBake& bake) {
+  return SkyLeaf(bake) + 1;
+}
+
+/// For the irradiance `ambient` of the bake's points; 0 for the sky. In channels of arriving light
+/// it is the irradiance itself, and 0 for sky and ground.
+SurfaceLight LightSurfaces(const Scene& scene, const TriangleSoup& soup, const LightBake& bake,
+                           const std::vector<Spectrum>& ambient, const Lighting& lighting,
+                           Channel channel);
+
+/// Different values of a packet's lanes. They are few, and all lanes of one are shaded at once.
+struct LaneGroups {
+  Lanes<uint32_t> values;
   int count = 0;
 };
-SideGroups GroupsOf(const Lanes<uint32_t>& side_hit);
+LaneGroups GroupsOf(const Lanes<uint32_t>& values);
+
+/// Where light is looked up for each hit.
+struct LeavesHit {
+  Lanes<uint32_t> leaf;  ///< Index into SurfaceLight::ambient.
+  Lanes<float> s;
+  Lanes<float> t;
+  LaneGroups groups;  ///< Of the leaves.
+};
+LeavesHit FindLeaves(const LightBake& bake, const Lanes<uint32_t>& side_hit,
+                     const RayPacket& packet);
 
 /// The light that leaves each hit: AmbientLeaving without the sun's light, SunLeaving the sun's
 /// light if it reaches the hit. `groups` are those of the sides hit.
-Lanes<float> AmbientLeaving(const SideRadiance* sides, const SideGroups& groups,
-                            const Lanes<uint32_t>& side_hit, const RayPacket& packet);
-Lanes<float> SunLeaving(const SideRadiance* sides, const SideGroups& groups,
+Lanes<float> AmbientLeaving(const LinearLight* ambient, const LeavesHit& hit);
+Lanes<float> SunLeaving(const LinearLight* sun, const LaneGroups& groups,
                         const Lanes<uint32_t>& side_hit, const RayPacket& packet);
 
 }  // namespace fenestra

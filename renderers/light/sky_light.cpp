@@ -59,26 +59,55 @@ int SkyPatchOf(const glm::vec3& direction_W) {
   return first + std::clamp(i, 0, count - 1);
 }
 
-std::array<double, kSkyPatches> PatchLuminances(const SkyDome& dome) {
-  std::array<double, kSkyPatches> mean{};
-  size_t patch = 0;
+namespace {
+
+// Directions at equal solid angles over patch i of `count` in a band.
+template <typename Function>
+void ForEachDirection(int band, int i, int count, const Function& f) {
+  for (int p = 0; p < kPointsPerSide; ++p) {
+    // Solid angle is uniform in the sine of the elevation.
+    const double y = std::lerp(LowSine(band), HighSine(band), (p + 0.5) / kPointsPerSide);
+    const double r = std::sqrt(1.0 - y * y);
+    for (int q = 0; q < kPointsPerSide; ++q) {
+      const double azimuth =
+          2.0 * std::numbers::pi * ((i + (q + 0.5) / kPointsPerSide) / count - 0.5);
+      f(Eigen::Vector3d(r * std::sin(azimuth), y, r * std::cos(azimuth)));
+    }
+  }
+}
+
+}  // namespace
+
+std::array<PatchLuminance, kSkyPatches> PatchLuminances(const SkyDome& dome) {
+  constexpr double kPart = 1.0 / (kPointsPerSide * kPointsPerSide);
+  std::array<PatchLuminance, kSkyPatches> patches;
+  size_t next = 0;
   for (int band = 0; band < kBands; ++band) {
     const int count = kPatchesOfBand[static_cast<size_t>(band)];
-    for (int i = 0; i < count; ++i, ++patch) {
-      for (int p = 0; p < kPointsPerSide; ++p) {
-        // Solid angle is uniform in the sine of the elevation.
-        const double y = std::lerp(LowSine(band), HighSine(band), (p + 0.5) / kPointsPerSide);
-        const double r = std::sqrt(1.0 - y * y);
-        for (int q = 0; q < kPointsPerSide; ++q) {
-          const double azimuth =
-              2.0 * std::numbers::pi * ((i + (q + 0.5) / kPointsPerSide) / count - 0.5);
-          mean[patch] += dome.LuminancePerLux({r * std::sin(azimuth), y, r * std::cos(azimuth)}) /
-                         (kPointsPerSide * kPointsPerSide);
-        }
+    for (int i = 0; i < count; ++i) {
+      PatchLuminance& patch = patches[next++];
+      ForEachDirection(band, i, count, [&](const Eigen::Vector3d& d) {
+        patch.mean += kPart * dome.LuminancePerLux(d);
+        patch.centre += kPart * d;
+      });
+      // Regression on the coordinates along two tangents, which are uncorrelated by symmetry.
+      const Eigen::Vector3d out = patch.centre.normalized();
+      const Eigen::Vector3d level =
+          band + 1 == kBands ? Eigen::Vector3d::UnitX()
+                             : Eigen::Vector3d(Eigen::Vector3d::UnitY().cross(out).normalized());
+      for (const Eigen::Vector3d& tangent : {level, Eigen::Vector3d(out.cross(level))}) {
+        double covariance = 0.0;
+        double variance = 0.0;
+        ForEachDirection(band, i, count, [&](const Eigen::Vector3d& d) {
+          const double along = tangent.dot(d - patch.centre);
+          covariance += along * (dome.LuminancePerLux(d) - patch.mean);
+          variance += along * along;
+        });
+        patch.gradient += covariance / variance * tangent;
       }
     }
   }
-  return mean;
+  return patches;
 }
 
 }  // namespace fenestra

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <glm/vec3.hpp>
 
@@ -37,7 +38,12 @@ inline constexpr int kSkyPatches = 145;
 /// The patch of a unit direction with y ≥ 0.
 int SkyPatchOf(const glm::vec3& direction_W);
 
-/// The mean of L/E_h [1/sr] over each patch.
-std::array<double, kSkyPatches> PatchLuminances(const SkyDome& dome);
+/// The luminance over one patch, as a linear function of the unit direction d.
+struct PatchLuminance {
+  double mean = 0.0;                                   ///< Of L/E_h [1/sr].
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< Mean of d.
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< L/E_h ≈ mean + gradient·(d − centre).
+};
+std::array<PatchLuminance, kSkyPatches> PatchLuminances(const SkyDome& dome);
 
 }  // namespace fenestra

@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -14,7 +15,6 @@
 #include "renderers/tracing/sobol_samples.h"
 #include "renderers/tracing/traced_scene.h"
 #include "scenes/facade/facade.h"
-#include "scenes/mesh/tessellation.h"
 #include "scenes/targets/flat_targets.h"
 
 namespace fenestra {
@@ -253,13 +253,31 @@ void BM_CastAovs(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * rays.width_px() * rays.height_px());
 }
 
-// A wall of so many triangles under sun and sky, 4 samples a pixel.
+// A wall of at least so many triangles, in squares.
+Mesh FineWall(size_t triangles) {
+  const auto side =
+      static_cast<uint32_t>(std::ceil(std::sqrt(0.5 * static_cast<double>(triangles))));
+  constexpr float kSide_m = 12.0f;
+  Mesh wall{.name = "wall", .material = 0};
+  for (uint32_t row = 0; row <= side; ++row) {
+    for (uint32_t column = 0; column <= side; ++column) {
+      const auto at = [&](uint32_t i) {
+        return kSide_m * (static_cast<float>(i) / static_cast<float>(side) - 0.5f);
+      };
+      wall.positions_W.emplace_back(at(column), at(row), 0.0f);
+      if (row == side || column == side) continue;
+      const uint32_t corner = row * (side + 1) + column;
+      wall.triangles.push_back(glm::uvec3(corner, corner + 1, corner + side + 2));
+      wall.triangles.push_back(glm::uvec3(corner, corner + side + 2, corner + side + 1));
+    }
+  }
+  return wall;
+}
+
+// Under sun and sky, 4 samples a pixel.
 void BM_RenderTriangles(benchmark::State& state) {
-  const Scene wall = MakePaperTarget({.with_target = false});
-  const auto wanted = static_cast<size_t>(state.range(0));
-  Scene scene = wall;
-  scene.meshes[0].closed = false;
-  scene = Tessellated(std::move(scene), wanted);
+  Scene scene = MakePaperTarget({.with_target = false});
+  scene.meshes = {FineWall(static_cast<size_t>(state.range(0)))};
   const RayCaster caster(scene);
   const RayGrid rays(StereoCamera());
   caster.Render(RayGrid(CameraModel::Pinhole(16, 16, 20.0)), InFront(), Daylight(), {},

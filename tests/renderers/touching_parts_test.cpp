@@ -9,7 +9,6 @@
 #include "renderers/ray_caster.h"
 #include "renderers/tracing/traced_scene.h"
 #include "scenes/mesh/solid_bodies.h"
-#include "scenes/mesh/tessellation.h"
 #include "tests/renderers/test_scenes.h"
 
 namespace fenestra {
@@ -88,18 +87,14 @@ struct SeenPoint {
   double true_lx = 0.0;
 };
 
-// What a camera sees of the scene under the sky alone, after cutting it into triangles whose edges
-// are no longer than 13 cm.
-constexpr size_t kTriangles = 6000;
-
 constexpr int kWidth_px = 240;
 constexpr int kHeight_px = 180;
 
-// In the order of the pixels, without an object where nothing is seen.
+// What a camera sees of the scene under the sky alone, in the order of the pixels; without an
+// object where nothing is seen.
 std::vector<SeenPoint> LookAt(const Scene& scene) {
-  const Scene fine = Tessellated(scene, kTriangles);
-  const TracedScene traced(fine);
-  const RayCaster caster(fine, {.bounces = 0});
+  const TracedScene traced(scene);
+  const RayCaster caster(scene, {.bounces = 0});
   const CameraModel camera = CameraModel::Pinhole(kWidth_px, kHeight_px, 195.0);
   const Pose X_WC = LookingAt({0.6, 0.2, 3.2}, {0.0, 0.0, 0.0});
   const AovImages aovs = caster.CastAovs(RayGrid(camera), X_WC, OnlySky(kSky_lx, 0.0), {});

@@ -24,10 +24,22 @@ Scene CubeOnAFloor() {
   return scene;
 }
 
+// A scene and what casts rays in it.
+struct CastScene {
+  explicit CastScene(const Scene& scene)
+      : traced(scene),
+        patches(traced.opaque(), NumberSurfaces(traced.opaque())),
+        caster(traced, patches, elements) {}
+
+  TracedScene traced;
+  LightPatches patches;
+  LightElements elements;
+  HemisphereCaster caster;
+};
+
 TEST(HemisphereCaster, HidesWhatLiesInABodyOrUnderAMat) {
-  const TracedScene traced(CubeOnAFloor());
-  const HemisphereCaster caster(traced);
-  const auto is_hidden = [&caster](const glm::vec3& p_W) {
+  const CastScene cast(CubeOnAFloor());
+  const auto is_hidden = [&caster = cast.caster](const glm::vec3& p_W) {
     return caster.About({p_W, {0.0f, 1.0f, 0.0f}}, kNear_m).IsHidden();
   };
   EXPECT_TRUE(is_hidden({0.0f, 0.0f, 0.0f}));
@@ -39,13 +51,12 @@ TEST(HemisphereCaster, HidesWhatLiesInABodyOrUnderAMat) {
 }
 
 TEST(HemisphereCaster, DoesNotHideTheFootOfAWall) {
-  const TracedScene traced(CubeOnAFloor());
-  const HemisphereCaster caster(traced);
+  const CastScene cast(CubeOnAFloor());
   for (const float gap_m : {0.1f, 0.01f, 0.001f, 0.0003f}) {
     const BakePoint on_floor{{1.0f + gap_m, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
     const BakePoint on_wall{{1.0f, gap_m, 0.0f}, {1.0f, 0.0f, 0.0f}};
-    EXPECT_FALSE(caster.About(on_floor, kNear_m).IsHidden()) << gap_m;
-    EXPECT_FALSE(caster.About(on_wall, kNear_m).IsHidden()) << gap_m;
+    EXPECT_FALSE(cast.caster.About(on_floor, kNear_m).IsHidden()) << gap_m;
+    EXPECT_FALSE(cast.caster.About(on_wall, kNear_m).IsHidden()) << gap_m;
   }
 }
 
@@ -53,10 +64,10 @@ TEST(HemisphereCaster, SeesHalfAnOpenSkyAtTheFootOfALongWall) {
   Scene scene;
   scene.materials = {Grey(0.5f)};
   scene.meshes = {UprightRectangle(-1e4f, 0.0f, 1e4f, 1e4f, 0.0f, 0)};
-  const TracedScene traced(scene);
-  const HemisphereView view = HemisphereCaster(traced).From({{0.0f, 0.0f, 0.01f}, {0, 1, 0}});
+  CastScene cast(scene);
+  const HemisphereView view = cast.caster.From({{0.0f, 0.0f, 0.01f}, {0, 1, 0}});
   double sky = 0.0;
-  for (const float s : view.open.sky) sky += static_cast<double>(s) / 3.14159265;
+  for (const SkyPart& part : view.open.sky) sky += static_cast<double>(part.w) / 3.14159265;
   // Half of the hemisphere, to 0.001.
   EXPECT_NEAR(sky, 0.5, 0.001);
   double wall = 0.0;
