@@ -15,6 +15,9 @@ namespace {
 // is smooth, and so is the sun's aureole over some 20 degrees: 64 x 64 cells are good to 1e-4.
 constexpr int kCells = 64;
 
+// A tenth of a radian, ten suns: beyond it a disc is no longer as good as its tangent plane.
+constexpr double kMostSun_rad = 0.1;
+
 }  // namespace
 
 Eigen::Vector3d Sun::Direction_W() const {
@@ -32,6 +35,7 @@ void Validate(const Lighting& lighting) {
   finite("sun azimuth_rad", sun.azimuth_rad);
   finite("sun elevation_rad", sun.elevation_rad);
   faults.RequireNotNegative("sun illuminance_lx", sun.illuminance_lx);
+  faults.RequireWithin("sun angular_diameter_rad", sun.angular_diameter_rad, 0.0, kMostSun_rad);
   faults.RequireNotNegative("sky illuminance_lx", sky.illuminance_lx);
   faults.RequireWithin("ground_reflectance", sky.ground_reflectance, 0.0, 1.0);
   faults.RequireNotNegative("irradiance_830_per_lux", lighting.irradiance_830_per_lux);

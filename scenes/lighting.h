@@ -10,11 +10,14 @@ namespace fenestra {
 /// Source: ASTM G173-03, 825–835 nm mean of the direct beam 0.87 W/(m² nm), at about 103 klx.
 inline constexpr double kDaylightIrradiance830PerLux = 0.87 / 103e3;
 
-/// A distant disc too small to blur a shadow at window scale.
+/// A distant disc of even brightness: at a distance z behind what casts it, a shadow's edge is as
+/// wide as z times the disc's diameter: 1 mm where it falls 10 cm behind.
 struct Sun {
   double azimuth_rad = 0.0;               ///< From the facade's normal (+Z) towards +X.
   double elevation_rad = 40.0 * kDegree;  ///< Above the horizon.
   double illuminance_lx = 0.0;            ///< On a plane perpendicular to the rays; 0: no sun.
+  /// Apparent diameter, in the mean 2 · 959.6″ (Astronomical Almanac); 0: hard shadows.
+  double angular_diameter_rad = 9.3e-3;
 
   /// Unit vector from the scene to the sun.
   Eigen::Vector3d Direction_W() const;

@@ -56,6 +56,8 @@ void AddLightFactors(FactorTable& t) {
               "Direction of the sun from the wall's normal, to the viewer's right.")
       .Number("sun_elevation_deg", FIELD(lighting.sun.elevation_rad), {0.0, 90.0, kDegree},
               "Height of the sun above the horizon.")
+      .Number("sun_diameter_mrad", FIELD(lighting.sun.angular_diameter_rad), {0.0, 100.0, 1e-3},
+              "Apparent diameter of the sun, which softens the edges of shadows; 0: a point.")
       .Number("sky_illuminance_lx", FIELD(lighting.sky.illuminance_lx), {0.0, 128e3},
               "Illuminance by the sky on an unobstructed horizontal plane.")
       .Choice("sky_model", FIELD(lighting.sky.model), {"uniform", "cie_overcast", "cie_clear"},

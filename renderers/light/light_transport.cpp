@@ -54,8 +54,23 @@ FENESTRA_WIDE void KeepLarger(const Lanes<float>& values, Lanes<float>& largest)
   }
 }
 
-FENESTRA_WIDE void MarkSun(const Lanes<float>& sun, const LaneMask& disc, Lanes<uint32_t>& key) {
-  for (int i = 0; i < kLanes; ++i) key[i] |= (sun[i] > 0.0f || disc[i] != 0) ? 1u : 0u;
+FENESTRA_WIDE void MarkSun(const Lanes<float>& sun, const LaneMask& disc, const LaneMask& penumbra,
+                           Lanes<uint32_t>& key) {
+  for (int i = 0; i < kLanes; ++i) {
+    key[i] |= (sun[i] > 0.0f || disc[i] != 0) ? 1u : 0u;
+    key[i] |= penumbra[i] != 0 ? 2u : 0u;
+  }
+}
+
+// Whether the sun shines in some of these lanes and not in others.
+bool AreMixed(const LaneMask& lanes, const Lanes<float>& sun) {
+  bool lit = false;
+  bool dark = false;
+  for (int i = 0; i < kLanes; ++i) {
+    lit = lit || (lanes[i] != 0 && sun[i] > 0.0f);
+    dark = dark || (lanes[i] != 0 && !(sun[i] > 0.0f));
+  }
+  return lit && dark;
 }
 
 }  // namespace
@@ -80,6 +95,7 @@ LightTransport::LightTransport(const Surfaces& surfaces, const std::vector<Spect
       sky_varies_(lighting.sky.model != Sky::Model::kUniform || SunIlluminance(lighting) > 0.0),
       has_sun_(SunIlluminance(lighting) > 0.0),
       lamp_dimmer_(static_cast<float>(lighting.lamp_dimmer)),
+      sun_points_(lighting.sun),
       offset_m_(surfaces.traced.SurfaceOffset(viewer.p_WC)),
       spread_(viewer.spread) {
   FENESTRA_CHECK(channels.size() <= kMostChannels, "too many channels");
@@ -113,12 +129,71 @@ LightTransport::LightTransport(const Surfaces& surfaces, const std::vector<Spect
   }
 }
 
-Lanes<float> LightTransport::SunReaching(const LaneMask& mask, const RayPacket& packet,
-                                         const Lanes<float>& sun_facing) const {
+// The lanes on surfaces of which other lanes have found otherwise whether the sun shines there.
+LaneMask LightTransport::Undecided(const LaneMask& towards_sun, const Ends& ends) const {
+  LaneMask undecided;
+  for (int i = 0; i < kLanes; ++i) {
+    if (towards_sun[i] == 0) continue;
+    for (int k = 0; k < i; ++k) {
+      const bool differ = (ends.sun[i] > 0.0f) != (ends.sun[k] > 0.0f);
+      if (towards_sun[k] == 0 || !differ) continue;
+      if (surfaces_.side_keys[ends.side_hit[i]] != surfaces_.side_keys[ends.side_hit[k]]) continue;
+      undecided[i] = -1;
+      undecided[k] = -1;
+    }
+  }
+  // And the others of these surfaces.
+  LaneMask all = undecided;
+  for (int i = 0; i < kLanes; ++i) {
+    for (int k = 0; k < kLanes; ++k) {
+      const bool same =
+          surfaces_.side_keys[ends.side_hit[i]] == surfaces_.side_keys[ends.side_hit[k]];
+      if (undecided[k] != 0 && towards_sun[i] != 0 && same) all[i] = -1;
+    }
+  }
+  return all;
+}
+
+void LightTransport::AddSun(const LaneMask& mask, const RayPacket& packet, const SunRays& sun_rays,
+                            Ends& ends) const {
+  const LaneGroups groups = GroupsOf(ends.side_hit);
+  std::array<Lanes<float>, kMostChannels> sun;
+  Lanes<float> sun_facing;
+  for (size_t c = 0; c < channels_.size(); ++c) {
+    sun[c] = SunLeaving(surface_light_[c].sun.data(), groups, ends.side_hit, packet);
+    KeepLarger(sun[c], sun_facing);
+  }
   LaneMask towards_sun;
-  if (!SunwardLanes(mask, sun_facing, towards_sun)) return {};
-  RTCRay16 rays = RaysFromHits(packet, offset_m_, to_sun_W_);
-  return surfaces_.traced.Transmittance(towards_sun, rays, Coherence::kCoherent);
+  if (!SunwardLanes(mask, sun_facing, towards_sun)) return;
+  const RTCRay16 to_centre = RaysFromHits(packet, offset_m_, to_sun_W_);
+  const auto passing = [&](const LaneMask& lanes, const SunPoints::Choice& choice) {
+    RTCRay16 rays = to_centre;
+    if (!sun_points_.is_point()) sun_points_.Aim(choice, rays);
+    return surfaces_.traced.Transmittance(lanes, rays, Coherence::kCoherent);
+  };
+  if (sun_points_.is_point() || sun_rays.one_point) {
+    ends.sun = passing(towards_sun, {.turn = sun_rays.packet});
+  } else {
+    ends.sun = passing(towards_sun, {.turn = SunPoints::kRim, .shift = sun_rays.packet});
+    if (AreMixed(towards_sun, ends.sun)) {
+      const LaneMask undecided = Undecided(towards_sun, ends);
+      Lanes<float> sum;
+      Lanes<int> lit;
+      for (int j = 0; j < SunPoints::kTurns; ++j) {
+        const Lanes<float> passed = passing(undecided, {.turn = j, .shift = sun_rays.packet});
+        for (int i = 0; i < kLanes; ++i) {
+          sum[i] += passed[i];
+          lit[i] += passed[i] > 0.0f ? 1 : 0;
+        }
+      }
+      for (int i = 0; i < kLanes; ++i) {
+        if (undecided[i] == 0) continue;
+        ends.sun[i] = sum[i] / static_cast<float>(SunPoints::kTurns);
+        ends.penumbra[i] = lit[i] > 0 && lit[i] < SunPoints::kTurns ? -1 : 0;
+      }
+    }
+  }
+  for (size_t c = 0; c < channels_.size(); ++c) AddScaled(sun[c], ends.sun, ends.radiance[c]);
 }
 
 void LightTransport::AddLamps(const LaneMask& mask, const RayPacket& packet, Ends& ends) const {
@@ -186,24 +261,15 @@ void LightTransport::ApplyPatterns(const LaneMask& mask, const RayPacket& packet
 }
 
 LightTransport::Ends LightTransport::Shade(const LaneMask& mask, const RayPacket& packet,
-                                           const Lanes<float>& before) const {
+                                           const Lanes<float>& before,
+                                           const SunRays& sun_rays) const {
   Ends ends;
   ends.side_hit = SidesHit(packet, static_cast<uint32_t>(surfaces_.traced.opaque().size()));
   const LeavesHit leaves = FindLeaves(surfaces_.bake, ends.side_hit, packet);
   for (size_t c = 0; c < channels_.size(); ++c) {
     ends.radiance[c] = AmbientLeaving(surface_light_[c].ambient.data(), leaves);
   }
-  if (has_sun_) {
-    const LaneGroups groups = GroupsOf(ends.side_hit);
-    std::array<Lanes<float>, kMostChannels> sun;
-    Lanes<float> sun_facing;
-    for (size_t c = 0; c < channels_.size(); ++c) {
-      sun[c] = SunLeaving(surface_light_[c].sun.data(), groups, ends.side_hit, packet);
-      KeepLarger(sun[c], sun_facing);
-    }
-    ends.sun = SunReaching(mask, packet, sun_facing);
-    for (size_t c = 0; c < channels_.size(); ++c) AddScaled(sun[c], ends.sun, ends.radiance[c]);
-  }
+  if (has_sun_) AddSun(mask, packet, sun_rays, ends);
   if (lamp_dimmer_ > 0.0f && !surfaces_.scene.lamps.empty()) AddLamps(mask, packet, ends);
   if (surfaces_.traced.patterns().any()) ApplyPatterns(mask, packet, before, ends);
   if (sky_varies_) AddSky(mask, packet, ends);
@@ -218,24 +284,27 @@ LightTransport::Ends LightTransport::TraceOpaque(const LaneMask& mask, RayPacket
         const Lanes<float> reflectance = surfaces_.traced.ReflectancesHit(panes, at_panes);
         for (int i = 0; i < kLanes; ++i) transmittance[i] *= 1.0f - reflectance[i];
       });
-  Ends ends = Shade(mask, packet, {});
+  Ends ends = Shade(mask, packet, {}, {});
   ends.transmittance = transmittance;
   return ends;
 }
 
 LightTransport::Arriving LightTransport::WithKeys(const Ends& ends) const {
   Arriving arriving{.radiance = ends.radiance,
-                    .key = LookUp(surfaces_.side_keys.data(), ends.side_hit)};
-  MarkSun(ends.sun, ends.sun_disc, arriving.key);
+                    .key = LookUp(surfaces_.side_keys.data(), ends.side_hit),
+                    .penumbra = ends.penumbra};
+  MarkSun(ends.sun, ends.sun_disc, ends.penumbra, arriving.key);
   return arriving;
 }
 
-LightTransport::Arriving LightTransport::Trace(const LaneMask& mask, RayPacket& packet) const {
+LightTransport::Arriving LightTransport::Trace(const LaneMask& mask, RayPacket& packet,
+                                               const SunRays& sun_rays) const {
   const TracedScene& traced = surfaces_.traced;
   bool any_pane = false;
   Lanes<float> throughput;
   std::array<Lanes<float>, kMostChannels> mirrored;
   Lanes<uint32_t> mirror_keys;
+  LaneMask penumbra;
   traced.IntersectThroughPanes(
       mask, packet, Coherence::kCoherent, [&](const LaneMask& panes, const RayPacket& at_panes) {
         if (!any_pane) throughput.v.fill(1.0f);
@@ -244,7 +313,7 @@ LightTransport::Arriving LightTransport::Trace(const LaneMask& mask, RayPacket& 
         traced.opaque_tracer().Intersect(panes, mirror_packet, Coherence::kCoherent);
         Lanes<float> before;
         std::copy_n(at_panes.ray.tfar, kLanes, before.data());
-        const Arriving mirror = WithKeys(Shade(panes, mirror_packet, before));
+        const Arriving mirror = WithKeys(Shade(panes, mirror_packet, before, sun_rays));
         const Lanes<float> reflectance = traced.ReflectancesHit(panes, at_panes);
         Lanes<float> mirror_part;
         for (int i = 0; i < kLanes; ++i) mirror_part[i] = throughput[i] * reflectance[i];
@@ -253,16 +322,19 @@ LightTransport::Arriving LightTransport::Trace(const LaneMask& mask, RayPacket& 
         }
         for (int i = 0; i < kLanes; ++i) {
           throughput[i] -= mirror_part[i];
-          if (panes[i] != 0) mirror_keys[i] = Mix(mirror_keys[i], mirror.key[i]);
+          if (panes[i] == 0) continue;
+          mirror_keys[i] = Mix(mirror_keys[i], mirror.key[i]);
+          penumbra[i] |= mirror.penumbra[i];
         }
       });
-  Arriving arriving = WithKeys(Shade(mask, packet, {}));
+  Arriving arriving = WithKeys(Shade(mask, packet, {}, sun_rays));
   if (!any_pane) return arriving;
   for (int i = 0; i < kLanes; ++i) {
     for (size_t c = 0; c < channels_.size(); ++c) {
       arriving.radiance[c][i] = mirrored[c][i] + throughput[i] * arriving.radiance[c][i];
     }
     if (mirror_keys[i] != 0) arriving.key[i] = Mix(arriving.key[i], mirror_keys[i]);
+    arriving.penumbra[i] |= penumbra[i];
   }
   return arriving;
 }

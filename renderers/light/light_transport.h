@@ -6,6 +6,7 @@
 #include "renderers/light/lane_kernels.h"
 #include "renderers/light/lit_surfaces.h"
 #include "renderers/light/sky_light.h"
+#include "renderers/light/sun_points.h"
 #include "renderers/tracing/traced_scene.h"
 
 namespace fenestra {
@@ -14,8 +15,10 @@ namespace fenestra {
 ///
 /// A ray that meets a surface carries the surface's radiance (see SurfaceLight), with V found by a
 /// shadow ray, and the light of the lamps, with one more shadow ray each, all of it multiplied by
-/// the surface's pattern. A pane of glass before it adds its mirror image, seen without further
-/// panes:
+/// the surface's pattern. The shadow rays of a packet lead to sixteen points on the rim of the
+/// sun's disc. Where some of one surface are blocked and others not, each of its hits sends sixteen
+/// more, all over the disc: V is the part of it that is in sight (see SunPoints). A pane of glass
+/// before it adds its mirror image, seen without further panes:
 ///
 ///     L = (1 − R) L_behind + R L_mirror.
 class LightTransport {
@@ -50,10 +53,18 @@ class LightTransport {
     /// Differs between rays that see different things: another surface, sun instead of shadow, a
     /// pane before the surface, another mirror image in the pane.
     Lanes<uint32_t> key;
+    LaneMask penumbra;  ///< Where a part of the sun's disc is hidden.
+  };
+
+  /// The part of the sun's disc that each hit looks at.
+  struct SunRays {
+    /// Of many samples of one thing each may look at one point, since together they see the disc.
+    bool one_point = false;
+    int packet = 0;  ///< In [0, 16); those of a pixel's packets differ, and so do their points.
   };
 
   /// Traces fresh rays (see SetRays) in the lanes of the mask; other lanes are undefined.
-  Arriving Trace(const LaneMask& mask, RayPacket& packet) const;
+  Arriving Trace(const LaneMask& mask, RayPacket& packet, const SunRays& sun_rays) const;
 
   /// The ends of a packet's rays on opaque surfaces, and the light there.
   struct Ends {
@@ -62,6 +73,7 @@ class LightTransport {
     /// The share of the sun's light that arrives through panes: 0 in shadow, on a surface that
     /// faces away, where nothing was hit, and without a sun.
     Lanes<float> sun;
+    LaneMask penumbra;           ///< Whether a part of the sun's disc is hidden.
     LaneMask sun_disc;           ///< Whether the ray leads to the sun itself.
     Lanes<float> transmittance;  ///< Transmittance of the panes before the surface.
   };
@@ -70,10 +82,12 @@ class LightTransport {
   Ends TraceOpaque(const LaneMask& mask, RayPacket& packet) const;
 
  private:
-  Ends Shade(const LaneMask& mask, const RayPacket& packet, const Lanes<float>& before) const;
+  Ends Shade(const LaneMask& mask, const RayPacket& packet, const Lanes<float>& before,
+             const SunRays& sun_rays) const;
   Arriving WithKeys(const Ends& ends) const;
-  Lanes<float> SunReaching(const LaneMask& mask, const RayPacket& packet,
-                           const Lanes<float>& sun_facing) const;
+  void AddSun(const LaneMask& mask, const RayPacket& packet, const SunRays& sun_rays,
+              Ends& ends) const;
+  LaneMask Undecided(const LaneMask& towards_sun, const Ends& ends) const;
   void AddLamps(const LaneMask& mask, const RayPacket& packet, Ends& ends) const;
   void AddSky(const LaneMask& mask, const RayPacket& packet, Ends& ends) const;
   void ApplyPatterns(const LaneMask& mask, const RayPacket& packet, const Lanes<float>& before,
@@ -89,6 +103,7 @@ class LightTransport {
   bool has_sun_;
   float lamp_dimmer_;
   glm::vec3 to_sun_W_;
+  SunPoints sun_points_;
   float offset_m_;
   float spread_;
 };

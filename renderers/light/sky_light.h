@@ -27,7 +27,8 @@ class SkyLight {
   SkyDome dome_;
   Eigen::Vector3d to_sun_W_;
   Spectrum sky_;
-  Spectrum disc_;
+  Spectrum disc_{0.0f};
+  double chord_;  // From the disc's centre to its rim, on the unit sphere.
 };
 
 /// The sky in patches of about equal solid angle: seven bands of 12 degrees and a cap at the

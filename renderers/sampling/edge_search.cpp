@@ -86,9 +86,11 @@ class EdgeSearch {
   using Keys = std::array<uint32_t, kLines>;  // Of each line's beginning or end.
   using Places = std::array<float, kLines>;   // On each line.
 
-  // Adds the samples of a packet; returns false if one of them saw a third thing.
+  // Adds the samples of a packet; returns false if one of them saw a third thing, or a penumbra,
+  // which has no edge.
   bool Note(const PixelPoints& points, const Arriving& arriving) {
     for (int i = 0; i < kLanes; ++i) {
+      if (arriving.penumbra[i] != 0) return false;
       const uint32_t key = arriving.key[i];
       size_t k = 0;
       while (k < thing_count_ && things_[k].key != key) ++k;

@@ -13,7 +13,8 @@ namespace fenestra {
 /// placed to about 0.001 px. With four lines the crossings are found to 1/125: see EdgeLines.
 ///
 /// `known` is the result of the pixel's first samples, which is returned if there is no edge.
-/// Returns nullopt if more than two things are visible or a line is crossed more than once.
+/// Returns nullopt if more than two things are visible, a line is crossed more than once, or the
+/// sun's disc is in sight in part, so that its shadow has no edge.
 std::optional<Film::QuarteredResult> SearchEdge(EdgeLines lines, const PixelSampler& sampler,
                                                 Film::Pixel pixel, const Film::PixelResult& known);
 

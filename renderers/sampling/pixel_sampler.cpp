@@ -26,16 +26,12 @@ PixelSampler::PixelSampler(const LightTransport& light, const RayGrid& rays,
       stride_(static_cast<uint32_t>(rays.width_px()) + 1) {}
 
 LightTransport::Arriving PixelSampler::Trace(const LaneMask& mask, const PixelPatches& patches,
-                                             const PixelPoints& points) const {
+                                             const PixelPoints& points,
+                                             const LightTransport::SunRays& sun_rays) const {
   const ImagePoints image = InPixels(patches, points);
   RayPacket packet;
   SetRays(packet, camera_.p_WC, ToWorld(camera_.axes, image.x, image.y));
-  return light_.Trace(mask, packet);
-}
-
-LightTransport::Arriving PixelSampler::Trace(const PixelPatches& patches,
-                                             const PixelPoints& points) const {
-  return Trace(FirstLanes(kLanes), patches, points);
+  return light_.Trace(mask, packet, sun_rays);
 }
 
 PixelPatches PixelSampler::PatchOf(Film::Pixel pixel) const {
@@ -56,7 +52,8 @@ Film::PixelResult PixelSampler::SampleDensely(Film::Pixel pixel, int samples) co
   std::array<Lanes<float>, LightTransport::kMostChannels> sums{};
   Film::PixelResult result;
   for (int first = 0; first < samples; first += kLanes) {
-    const LightTransport::Arriving arriving = Trace(patch, SamplePoints(pixel, first));
+    const LightTransport::Arriving arriving =
+        Trace(patch, SamplePoints(pixel, first), SunRaysOf(samples, first));
     for (size_t c = 0; c < channel_count(); ++c) Accumulate(arriving.radiance[c], sums[c]);
     if (first == 0) result.key = arriving.key[0];
     for (int i = 0; i < kLanes; ++i) {
@@ -90,7 +87,8 @@ Film::QuarteredResult PixelSampler::SampleQuarters(Film::Pixel pixel, int sample
   for (int first = 0; first < samples; first += kLanes) {
     const int lanes = std::min(samples, kLanes);
     const PixelPoints points = SamplePoints(pixel, first);
-    const LightTransport::Arriving arriving = Trace(FirstLanes(lanes), patch, points);
+    const LightTransport::Arriving arriving =
+        Trace(FirstLanes(lanes), patch, points, SunRaysOf(samples, first));
     if (first == 0) result.key = arriving.key[0];
     for (int i = 0; i < lanes; ++i) {
       if (arriving.key[i] != result.key) result.key = Film::kMixed;
@@ -127,7 +125,8 @@ void PixelSampler::SampleBlock(Film::Pixel top_left, int samples, Film& film) co
     const LightTransport::Arriving arriving =
         Trace(all, patches,
               ScrambledPoints(AllLanes(kSobolTable.x[j]), AllLanes(kSobolTable.y[j]), block.seed_x,
-                              block.seed_y));
+                              block.seed_y),
+              {.packet = sample});
     if (sample == 0) {
       sums = arriving;
       continue;

@@ -24,7 +24,10 @@ class PixelSampler {
   /// The same pixel in all lanes.
   PixelPatches PatchOf(Film::Pixel pixel) const;
 
-  LightTransport::Arriving Trace(const PixelPatches& patches, const PixelPoints& points) const;
+  LightTransport::Arriving Trace(const PixelPatches& patches, const PixelPoints& points,
+                                 const LightTransport::SunRays& sun_rays = {}) const {
+    return Trace(FirstLanes(kLanes), patches, points, sun_rays);
+  }
 
   /// Samples [first, first + 16) of a pixel.
   PixelPoints SamplePoints(Film::Pixel pixel, int first) const;
@@ -45,7 +48,13 @@ class PixelSampler {
 
  private:
   LightTransport::Arriving Trace(const LaneMask& mask, const PixelPatches& patches,
-                                 const PixelPoints& points) const;
+                                 const PixelPoints& points,
+                                 const LightTransport::SunRays& sun_rays = {}) const;
+  // For the packet of samples from `first` on. Many samples see the sun's disc together.
+  static LightTransport::SunRays SunRaysOf(int samples, int first) {
+    constexpr int kMany = 64;
+    return {.one_point = samples >= kMany, .packet = first / kLanes};
+  }
   uint32_t IndexOf(Film::Pixel pixel) const {
     return static_cast<uint32_t>(pixel.row * rays_.width_px() + pixel.column);
   }

@@ -50,9 +50,9 @@ struct AovImages {
   cv::Mat1f depth_m;    ///< Along the optical axis to the first opaque surface; NaN: none.
   cv::Mat3f normal_C;   ///< Geometric unit normal in the camera frame, facing the camera; 0: none.
   cv::Mat1i object_id;  ///< Index of the mesh in the scene; -1: none.
-  cv::Mat1i material_id;    ///< Index of its material; -1: none.
-  cv::Mat1b sees_sun;       ///< 255 where the sun reaches the surface (0 if there is no sun).
-  cv::Mat1b sees_point;     ///< 255 where the point p_WP is in sight; empty without p_WP.
+  cv::Mat1i material_id;  ///< Index of its material; -1: none.
+  cv::Mat1b sees_sun;    ///< 255 where a part of the sun's disc is in sight (0 if there is no sun).
+  cv::Mat1b sees_point;  ///< 255 where the point p_WP is in sight; empty without p_WP.
   cv::Mat1f transmittance;  ///< Transmittance of the glass before the surface, [0, 1].
   cv::Mat1f reflectance_830nm;
   cv::Mat1f irradiance_lx;   ///< Illuminance of the surface, by all lights [lx].

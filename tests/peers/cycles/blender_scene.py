@@ -73,7 +73,7 @@ def _linear(image):
 
 
 def add_sun(scene, light):
-    """A sun without extent. Blender's z axis is up; glTF's (x, y, z) is its (x, -z, y)."""
+    """The sun's disc. Blender's z axis is up; glTF's (x, y, z) is its (x, -z, y)."""
     if light["sun_lx"] == 0:
         return
     azimuth = math.radians(light["sun_azimuth_deg"])
@@ -87,7 +87,7 @@ def add_sun(scene, light):
     )
     lamp = bpy.data.lights.new("sun", "SUN")
     lamp.energy = light["sun_lx"]
-    lamp.angle = 0.0
+    lamp.angle = 9.3e-3  # As scenes/lighting.h has it.
     sun = bpy.data.objects.new("sun", lamp)
     sun.rotation_euler = to_sun.to_track_quat("Z", "Y").to_euler()  # Lamps shine along their -z.
     scene.collection.objects.link(sun)
