@@ -111,6 +111,7 @@ FrameFitter::ViewEdges FrameFitter::MeasureView(size_t view, const FrameRectangl
         .far_px = tolerance_px > 0.0 ? reach_px : std::max(reach_px, settings_.far_px),
         .min_contrast_dn = settings_.min_contrast_dn,
         .vignetting = settings_.vignetting,
+        .shift = settings_.shift,
         .coarse = !is_last && tolerance_px >= kCoarse_px};
     add(request, found.outer_places);
     if (!border_) continue;

@@ -25,6 +25,7 @@ struct FrameFitSettings {
   std::optional<SizePrior> size;  ///< Used only in the last adjustment.
   std::vector<PlaneMeasurement> planes{};
   Vignetting vignetting;
+  EdgeShift shift{};
 };
 
 /// Refines a rectangle that is accurate to a few pixels: measures its sides in all views and

@@ -100,4 +100,10 @@ StereoObservation Photograph(const StereoCalibration& rig, const Pose& X_LO,
           Expose(Coverage(rig.right, right), photo, stream.Child("noise", 1))};
 }
 
+EdgeStereoOptions OptionsForExactPictures() {
+  EdgeStereoOptions options;
+  options.edge_shift = {.centre_px = 0.0004, .corner_px = 0.0004};
+  return options;
+}
+
 }  // namespace fenestra::testing

@@ -4,6 +4,7 @@
 #include "core/geometry/calibration.h"
 #include "core/random/random_stream.h"
 #include "tests/support/planar_target.h"
+#include "vision/stereo/edge/edge_stereo.h"
 
 namespace fenestra::testing {
 
@@ -35,5 +36,8 @@ Pose WindowSeenFrom(const View& view, double baseline_m = 0.35);
 StereoObservation Photograph(const StereoCalibration& rig, const Pose& X_LO,
                              const PlanarTarget& target, const Photo& photo,
                              const RandomStream& stream);
+
+/// Options of a detector of edges for pictures that have the edges that it assumes.
+EdgeStereoOptions OptionsForExactPictures();
 
 }  // namespace fenestra::testing

@@ -22,6 +22,34 @@ double LossOf(const EdgeLoss& loss, double residual) {
   return c * c / 3.0 * (1.0 - rest * rest * rest);
 }
 
+// What the shared errors of one side in one view do to the gradient.
+struct SharedErrors {
+  Vector common = Vector::Zero();  // By the error of all its points.
+  Eigen::Matrix<double, FrameRectangle::kParameters, 2> shift =
+      Eigen::Matrix<double, FrameRectangle::kParameters, 2>::Zero();  // By displacements.
+  Eigen::Vector2d places = Eigen::Vector2d::Zero();                   // Sum.
+  double count = 0.0;
+
+  void Add(const EdgePoint& point, const Eigen::Vector2d& place, const Vector& by_pixel) {
+    common += point.common_sigma_px * by_pixel;
+    shift.noalias() += point.shift_sigma_px * by_pixel * point.normal.transpose();
+    places += place;
+    count += 1.0;
+  }
+};
+
+void AddSharedErrors(std::span<const SharedErrors> sides, Matrix& sum) {
+  for (const SharedErrors& a : sides) {
+    if (a.count == 0.0) continue;
+    sum.noalias() += a.common * a.common.transpose();
+    for (const SharedErrors& b : sides) {
+      if (b.count == 0.0) continue;
+      sum.noalias() +=
+          ShiftCorrelation(a.places / a.count, b.places / b.count) * a.shift * b.shift.transpose();
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<std::vector<double>> EdgeResiduals(std::span<const CameraView> views,
@@ -83,28 +111,21 @@ Matrix CommonErrors(std::span<const CameraView> views, const EdgePointsByView& p
                     const FrameRectangle& frame, const EdgeLoss& loss) {
   Matrix sum = Matrix::Zero();
   for (size_t view = 0; view < points.size(); ++view) {
-    std::array<std::array<Vector, 4>, 2> groups;
-    std::array<std::array<double, 4>, 2> sigmas_px = {};
-    for (auto& border : groups) border.fill(Vector::Zero());
-    const Eigen::Matrix3d& R_CL = views[view].X_CL.rotation();
+    std::array<SharedErrors, 8> sides;
+    const CameraView& seen = views[view];
     for (const EdgePoint& point : points[view]) {
       const auto on_side = frame.LineariseOn(point.side, point.border, point.share);
-      const auto projected = views[view].camera.Linearise(views[view].X_CL * on_side.p_LQ);
+      const auto projected = seen.camera.Linearise(seen.X_CL * on_side.p_LQ);
       if (!projected) continue;
-      const Eigen::RowVector3d by_point = point.normal.transpose() * projected->by_point * R_CL;
+      const Eigen::RowVector3d by_point =
+          point.normal.transpose() * projected->by_point * seen.X_CL.rotation();
       const double residual = point.normal.dot(projected->pixel - point.pixel) / point.sigma_px;
       const double weight = loss.Weight(residual) / (point.sigma_px * point.sigma_px);
-      const auto border = static_cast<size_t>(point.border);
-      const auto side = static_cast<size_t>(point.side);
-      groups[border][side] += weight * (by_point * on_side.by_parameters).transpose();
-      sigmas_px[border][side] = point.common_sigma_px;
+      sides[4 * static_cast<size_t>(point.border) + static_cast<size_t>(point.side)].Add(
+          point, PlaceInImage(seen.camera, point.pixel),
+          weight * (by_point * on_side.by_parameters).transpose());
     }
-    for (size_t border = 0; border < 2; ++border) {
-      for (size_t side = 0; side < 4; ++side) {
-        const Vector v = sigmas_px[border][side] * groups[border][side];
-        sum.noalias() += v * v.transpose();
-      }
-    }
+    AddSharedErrors(sides, sum);
   }
   return sum;
 }

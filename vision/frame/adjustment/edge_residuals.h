@@ -34,8 +34,11 @@ struct EdgeLoss {
 NormalEquations LineariseEdges(std::span<const CameraView> views, const EdgePointsByView& points,
                                const FrameRectangle& frame, const EdgeLoss& loss);
 
-/// Covariance of the gradient caused by errors that all points of a side share: Σ σ_g² v_g v_gᵀ
-/// over the sides and borders in all views, with v = Σ w j/σ.
+/// Covariance of the gradient caused by errors that points share. Of those that all points of a
+/// side share: Σ σ_g² v_g v_gᵀ over the sides and borders in all views, with v = Σ w j/σ. Of
+/// displacements (EdgeShift), with c the correlation between the middles of two sides in one view:
+///
+///     Σ_g Σ_h c(ρ_g, ρ_h) (u_gx u_hxᵀ + u_gy u_hyᵀ),   u = Σ w σ_d n j/σ.
 Eigen::Matrix<double, FrameRectangle::kParameters, FrameRectangle::kParameters> CommonErrors(
     std::span<const CameraView> views, const EdgePointsByView& points, const FrameRectangle& frame,
     const EdgeLoss& loss);

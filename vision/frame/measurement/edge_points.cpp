@@ -10,9 +10,6 @@
 namespace fenestra {
 namespace {
 
-// Error of the models of lens and light for a whole side, visible where there is little noise: blur
-// that varies across an edge, and pixels that are not perfect squares.
-constexpr double kModelSigma_px = 0.0004;
 // Strips whose mean square exceeds this multiple of the side's median show something else.
 constexpr double kMostExcess = 9.0;
 constexpr double kOwnExcess = 2.0;
@@ -111,7 +108,8 @@ SideEdges MeasureSide(const CameraView& view, const FrameRectangle& frame, const
          .normal = strip.normal,
          .pixel = strip.pixel + fit.s0_px * strip.normal,
          .sigma_px = std::sqrt(scale * fit.s0_variance),
-         .common_sigma_px = std::hypot(estimate.common_sigma_px, kModelSigma_px)});
+         .common_sigma_px = estimate.common_sigma_px,
+         .shift_sigma_px = request.shift.SigmaAt(PlaceInImage(view.camera, strip.pixel))});
   }
   edges.nuisance = estimate.nuisance;
   return edges;

@@ -16,9 +16,10 @@ struct EdgePoint {
   Eigen::Vector2d pixel;
   double sigma_px;  ///< Standard deviation of `pixel` along `normal`.
   /// Standard deviation of an additional error that all points of this side share in this view. It
-  /// comes from the uncertainty of blur, slopes and full scale, and from the imperfection of the
-  /// models of lens and light.
+  /// comes from the uncertainty of blur, slopes and full scale.
   double common_sigma_px = 0.0;
+  /// Standard deviation along each axis of a displacement that near points share; see EdgeShift.
+  double shift_sigma_px = 0.0;
 };
 
 struct SideEdges {

@@ -4,6 +4,7 @@
 
 #include "core/geometry/camera_model.h"
 #include "core/geometry/pose.h"
+#include "vision/frame/measurement/edge_shift.h"
 #include "vision/frame/model/frame_rectangle.h"
 
 namespace fenestra {
@@ -55,6 +56,7 @@ struct SideRequest {
   double far_px;
   double min_contrast_dn;
   Vignetting vignetting;
+  EdgeShift shift{};
   bool coarse = false;  ///< Measures only every third strip.
 
   double inside_px() const { return border == Border::kOuter ? reach_px : far_px; }

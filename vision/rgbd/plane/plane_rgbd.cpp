@@ -24,6 +24,9 @@ namespace {
 // dominates the match.
 constexpr double kClearWindows = 0.5;
 constexpr double kClear_px = 1.0;
+// Displacement of edges by what their model lacks, where there is little noise: blur that varies
+// across an edge, and pixels that are not perfect squares.
+constexpr double kEdgeShift_px = 0.0004;
 constexpr double kLeastOfColor = 0.5;
 // Largest ratio of the grey values of a frame's brightest and darkest sides, above what noise and
 // blur leave of black. A frame has one paint, and the light on a wall hardly varies by so much
@@ -95,7 +98,8 @@ PlaneRgbdDetector::PlaneRgbdDetector(const RgbdCalibration& calibration,
                           .min_contrast_dn = options.search.min_contrast_dn},
                .size = SizePriorOf(options.prior),
                .planes = {},
-               .vignetting = {.black_dn = 0.0, .power = options.search.vignetting_power}},
+               .vignetting = {.black_dn = 0.0, .power = options.search.vignetting_power},
+               .shift = {.centre_px = kEdgeShift_px, .corner_px = kEdgeShift_px}},
       noise_(NoiseOf(calibration, options, reader_)),
       limits_(options.search.limits),
       clear_px_(kClearWindows * noise_.window_px + kClear_px * reader_.columns()) {

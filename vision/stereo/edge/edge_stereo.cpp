@@ -30,6 +30,11 @@ const Table& EdgeStereoParameters() {
         "Zoom of rectification: 0 keeps only what both sensors saw, 1 all that either saw.");
     made.Adopt<FrameSearchOptions>(FrameSearchParameters(), FENESTRA_FIELD(search));
     made.Number("black_dn", FENESTRA_FIELD(black_dn), {0.0, 255.0}, "Grey value without light.");
+    made.Number("edge_shift_px", FENESTRA_FIELD(edge_shift.centre_px), {0.0, 10.0},
+                "Standard deviation of edges' displacement by what the edge model lacks, in the "
+                "image's centre: coma, motion between exposures.");
+    made.Number("corner_edge_shift_px", FENESTRA_FIELD(edge_shift.corner_px), {0.0, 10.0},
+                "The same in the image's corners.");
     made.Adopt<WindowPrior>(PriorParameters(SensorKind::kStereo), FENESTRA_FIELD(prior));
     return made;
   }();
@@ -61,7 +66,8 @@ EdgeStereoDetector::EdgeStereoDetector(const StereoCalibration& calibration,
                      .min_contrast_dn = kInnerContrast * options.search.min_contrast_dn},
           .size = SizePriorOf(options.prior),
           .planes = {},
-          .vignetting = {.black_dn = options.black_dn, .power = options.search.vignetting_power}} {}
+          .vignetting = {.black_dn = options.black_dn, .power = options.search.vignetting_power},
+          .shift = options.edge_shift} {}
 
 Detection EdgeStereoDetector::Detect(const Observation& observation, StageLog& log) const {
   const StereoObservation& seen = StereoPart(observation);

@@ -178,6 +178,33 @@ TEST(FrameAdjustment, ErrorsThatASideHasInCommonAreNotAveraged) {
   EXPECT_GT(ratio, 0.5 * kPlaces * std::pow(0.1 / 0.001, 2));
 }
 
+// Depth of a frame whose sides are all about as far from the image's centre as the frame is: by a
+// disparity that is off by as much as both pictures are displaced, each on its own, Z² √2 σ/(f B).
+TEST(FrameAdjustment, DisplacedPicturesOfADistantFrameMoveItAsAWhole) {
+  const auto views = Views();
+  FrameRectangle frame;
+  frame.R_LO = RotationFromVector({M_PI, 0.0, 0.0});
+  frame.p_LO = {0.175, 0.0, 30.0};
+  frame.width_m = frame.height_m = 1.0;
+  auto points = PointsOf(views, frame, {Border::kOuter}, 0.0, RandomStream(1), 1e-4);
+  constexpr double kShift_px = 0.003;
+  for (auto& view : points) {
+    for (EdgePoint& point : view) point.shift_sigma_px = kShift_px;
+  }
+  const auto adjusted = AdjustFrame(views, points, frame, {});
+  ASSERT_TRUE(adjusted.has_value());
+  const double expected_m = 30.0 * 30.0 * std::sqrt(2.0) * kShift_px / (667.0 * 0.35);
+  // Sides are 22 px = 0.05 half diagonals apart, so that displacements are correlated by 0.98.
+  EXPECT_NEAR(std::sqrt(adjusted->covariance(5, 5)), expected_m, 0.02 * expected_m);
+  // The twin: sides that err each on its own, two of them in each view.
+  for (auto& view : points) {
+    for (EdgePoint& point : view) std::swap(point.shift_sigma_px, point.common_sigma_px);
+  }
+  const auto apart = AdjustFrame(views, points, frame, {});
+  ASSERT_TRUE(apart.has_value());
+  EXPECT_NEAR(std::sqrt(apart->covariance(5, 5)), expected_m / std::sqrt(2.0), 0.02 * expected_m);
+}
+
 // One view tells the frame's shape, and its size how far it is: σ_z/z = σ/√(w² + h²), as width and
 // height are known apart and the edges tell their ratio.
 TEST(FrameAdjustment, InOneViewTheSizeTellsTheDistance) {
@@ -205,8 +232,8 @@ TEST(FrameAdjustment, AMeasuredPlaneHoldsTheFrame) {
   const Vector3d normal = frame.R_LO.col(2);
   FramePrior prior;
   prior.planes.push_back({.m = normal / (normal.dot(frame.p_LO) + relief_m),
-                              .information = 1e8 * Eigen::Matrix3d::Identity(),
-                              .relief_m = relief_m});
+                          .information = 1e8 * Eigen::Matrix3d::Identity(),
+                          .relief_m = relief_m});
   const auto adjusted = AdjustFrame(views, points, Displaced(frame), prior);
   ASSERT_TRUE(adjusted.has_value());
   EXPECT_LT(ErrorOf(adjusted->frame, frame).head<8>().norm(), 1e-4);

@@ -21,7 +21,7 @@ constexpr double kDepthNoise_dn = 2.0;
 WindowEstimate Find(const ExactFrame& frame, uint64_t seed) {
   const StereoCalibration rig = PaperRig();
   StageLog log(SteadyClock());
-  const Detection detection = EdgeStereoDetector(rig, {}).Detect(
+  const Detection detection = EdgeStereoDetector(rig, testing::OptionsForExactPictures()).Detect(
       ExactPair(rig, frame, kDepthNoise_dn, RandomStream(seed)), log);
   const Miss* miss = std::get_if<Miss>(&detection);
   EXPECT_EQ(miss, nullptr) << miss->reason << ": " << miss->detail;
@@ -88,7 +88,7 @@ std::vector<ExactFrame> SetBackFramesSeenFrom(const View& view) {
 
 std::vector<double> NormalisedSquaresOfSetBackFrames() {
   const StereoCalibration rig = CoarseRig();
-  const EdgeStereoDetector detector(rig, {});
+  const EdgeStereoDetector detector(rig, testing::OptionsForExactPictures());
   std::vector<double> squares;
   for (const double distance_m : {2.0, 3.5}) {
     for (const double azimuth_deg : {0.0, 25.0, 45.0}) {

@@ -24,7 +24,7 @@ constexpr double kMirrorNoise_dn = 2.0;
 
 Detection DetectBeside(const StereoCalibration& rig, const StereoObservation& observation) {
   StageLog log(SteadyClock());
-  return EdgeStereoDetector(rig, {}).Detect(observation, log);
+  return EdgeStereoDetector(rig, testing::OptionsForExactPictures()).Detect(observation, log);
 }
 
 WindowEstimate EstimateIn(const Detection& detection) {

@@ -19,6 +19,7 @@ using testing::ExactBound;
 using testing::ExactFrame;
 using testing::ExactPair;
 using testing::ExactPicture;
+using testing::OptionsForExactPictures;
 using testing::PaperRig;
 using testing::Photo;
 using testing::Photograph;
@@ -29,7 +30,7 @@ constexpr double kBaseline_m = 0.35;
 constexpr double kNoise_dn = 2.0;
 
 Detection Detect(const StereoCalibration& rig, const StereoObservation& observation,
-                 const EdgeStereoOptions& options = {}) {
+                 const EdgeStereoOptions& options = OptionsForExactPictures()) {
   StageLog log(SteadyClock());
   return EdgeStereoDetector(rig, options).Detect(observation, log);
 }
@@ -100,7 +101,7 @@ TEST(EdgeStereo, ScalingTheWorldScalesTheEstimate) {
   const StereoCalibration big_rig = PaperRig({}, Eigen::Vector3d::Zero(), 3.0 * kBaseline_m);
   const StereoObservation seen = ExactPair(rig, FrameSeenFrom({.distance_m = 3.0, .yaw_deg = 3.0}),
                                            kNoise_dn, RandomStream(2));
-  EdgeStereoOptions big;
+  EdgeStereoOptions big = OptionsForExactPictures();
   for (double* length :
        {&big.search.limits.nearest_m, &big.search.limits.farthest_m, &big.search.limits.min_side_m,
         &big.search.limits.max_side_m, &big.search.min_border_m}) {
@@ -227,7 +228,7 @@ TEST(EdgeStereo, KnownSizeHelpsAndAWrongOneFindsNothing) {
   const StereoCalibration rig = PaperRig();
   const ExactFrame frame = FrameSeenFrom({.distance_m = 8.0, .azimuth_deg = 10.0});
   const StereoObservation seen = ExactPair(rig, frame, kNoise_dn, RandomStream(3));
-  EdgeStereoOptions options;
+  EdgeStereoOptions options = OptionsForExactPictures();
   options.prior.expected_width_m = options.prior.expected_height_m = 1.0;
   options.prior.expected_size_sigma_m = 1e-5;
   const WindowEstimate free = Found(Detect(rig, seen));
